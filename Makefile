@@ -1,0 +1,78 @@
+# `make` lists the targets. Everything runs in .venv, which `make` sets up and keeps up to date.
+# PYTHON=/path/to/python3.12 make test   uses another interpreter (3.11 or newer).
+
+.DEFAULT_GOAL := help
+SHELL := /bin/bash
+.SHELLFLAGS := -euo pipefail -c
+.DELETE_ON_ERROR:
+.ONESHELL:
+
+PYTHON ?=
+PY := .venv/bin/python
+RUN := .venv/bin/symboslam
+# The stamp's name holds the folder's path, so that a copied or moved tree is installed anew.
+STAMP := .venv/.installed-$(shell pwd -P | cksum | cut -d ' ' -f 1)
+BENCHMARK ?= ../shared/benchmark
+SEED ?= 7
+
+.PHONY: help demo test test-slow lint format bench docs knowledge results system wheel clean
+
+help: ## list the targets
+	@grep -E '^[a-z.][a-z.-]*:.*## ' Makefile | sed -E 's/^([a-z.-]+):.*## /\1\t/' | expand -t 14
+
+.venv: $(STAMP) ## set up or update the environment
+
+.venv/.created:
+	@scripts/make-venv "$(PYTHON)"
+
+$(STAMP): .venv/.created pyproject.toml constraints.txt
+	@echo "Installing SymboSLAM and its tools into .venv (about a minute the first time) ..."
+	$(PY) -m pip install --quiet --disable-pip-version-check -c constraints.txt hatchling
+	$(PY) -m pip install --quiet --disable-pip-version-check -c constraints.txt \
+	  --no-build-isolation -e '.[dev]'
+	rm -f .venv/.installed-*
+	touch $@
+
+demo: $(STAMP) ## make a sample town, classify it, write an explained map
+	@mkdir -p demo
+	$(RUN) sample --seed $(SEED) --out demo/landmarks.geojson
+	$(RUN) classify demo/landmarks.geojson --out demo/map.geojson --out demo/map.html \
+	  --out demo/map.png
+	echo "Open in a browser: $$(pwd)/demo/map.html"
+
+test: $(STAMP) ## run the tests (a minute or two)
+	@$(PY) -m pytest -m "not slow and not network"
+
+test-slow: $(STAMP) ## run the long tests as well
+	@$(PY) -m pytest -m "not network"
+
+lint: $(STAMP) ## ruff, its formatter as a check, and mypy --strict
+	@$(PY) -m ruff check .
+	$(PY) -m ruff format --check .
+	$(PY) -m mypy src/symboslam tests bench scripts
+
+format: $(STAMP) ## mend what ruff can mend
+	@$(PY) -m ruff check --fix .
+	$(PY) -m ruff format .
+
+bench: $(STAMP) ## measure speed and memory, write bench/RESULTS.md (some minutes)
+	@$(PY) -m bench --out bench/RESULTS.md
+
+docs: $(STAMP) ## write docs/cli.md anew from the command line's own help
+	@$(PY) scripts/cli_docs.py
+
+knowledge: $(STAMP) ## reason over the bundled ontology anew
+	@$(PY) -m symboslam.reasoning.bundle
+
+results: $(STAMP) ## score against the benchmark in $(BENCHMARK), write docs/results.md
+	@$(PY) scripts/results.py --benchmark "$(BENCHMARK)"
+
+system: ## install Chromium, which the browser tests drive (Debian or Ubuntu, as root)
+	@scripts/install-system
+
+wheel: $(STAMP) ## build wheel and sdist into dist/ and try the wheel in a fresh environment
+	@scripts/check-wheel
+
+clean: ## remove .venv and everything built
+	@rm -rf .venv build dist demo .mypy_cache .pytest_cache .ruff_cache .hypothesis
+	find . -name __pycache__ -not -path './.git/*' -type d -prune -exec rm -rf {} +

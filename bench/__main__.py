@@ -1,0 +1,61 @@
+"""``python -m bench``: measure and write the report."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable
+from datetime import UTC, datetime
+from pathlib import Path
+
+from bench import cases
+from bench.measure import machine
+
+CASES: dict[str, tuple[Callable[[], str], Callable[[], str]]] = {
+    # name: (full size, toy size)
+    "evidence": (
+        lambda: cases.evidence((100, 300, 1000, 3000, 5000)),
+        lambda: cases.evidence((20, 60)),
+    ),
+    "classification": (
+        lambda: cases.classification((1500.0, 3000.0, 4500.0)),
+        lambda: cases.classification((1000.0,)),
+    ),
+    "growth": (
+        lambda: cases.growth((10_000, 100_000, 1_000_000)),
+        lambda: cases.growth((300, 900)),
+    ),
+    "start-up": (lambda: cases.start_up(11), lambda: cases.start_up(1)),
+    "knowledge": (cases.knowledge, cases.knowledge),
+}
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Run the chosen cases one after the other."""
+    parser = argparse.ArgumentParser(prog="python -m bench", description=__doc__)
+    parser.add_argument("--out", type=Path, help="file to write; standard output if left out")
+    parser.add_argument("--tiny", action="store_true", help="toy sizes: does everything still run?")
+    parser.add_argument("--only", choices=CASES, action="append", help="this case alone")
+    chosen = parser.parse_args(arguments)
+    parts = [
+        "# How fast, how large",
+        "Made by `make bench`. Do not edit.",
+        "\n".join(
+            f"- {line}" for line in (f"Date: {datetime.now(UTC):%Y-%m-%d %H:%M} UTC", *machine())
+        ),
+    ]
+    if chosen.tiny:
+        parts.append("**Toy sizes: these figures say nothing about speed.**")
+    for name in chosen.only or CASES:
+        print(f"{name} ...", file=sys.stderr, flush=True)
+        parts.append(CASES[name][chosen.tiny]())
+    text = "\n\n".join(parts) + "\n"
+    if chosen.out is None:
+        print(text)
+    else:
+        chosen.out.write_text(text, encoding="utf-8")
+        print(f"wrote {chosen.out}", file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main()

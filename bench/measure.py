@@ -1,0 +1,89 @@
+"""Timing: of calls, and of whole processes with their peak memory."""
+
+from __future__ import annotations
+
+import os
+import platform
+import statistics
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any, TypeVar
+
+import symboslam
+
+Result = TypeVar("Result")
+PACKAGES = ("numpy", "scipy", "shapely", "pyproj", "rdflib", "owlready2", "matplotlib", "typer")
+
+
+@dataclass(frozen=True)
+class Run:
+    """One finished process: wall-clock seconds, peak resident megabytes, standard output."""
+
+    seconds: float
+    peak_mb: float
+    output: str
+
+
+def call(
+    function: Callable[..., Result], *arguments: Any, repeat: int = 1, **options: Any
+) -> tuple[float, Result]:
+    """Median seconds of calling a function ``repeat`` times, and what it returned."""
+    seconds = []
+    for _ in range(repeat):
+        start = time.perf_counter()
+        result = function(*arguments, **options)
+        seconds.append(time.perf_counter() - start)
+    return statistics.median(seconds), result
+
+
+def process(command: Sequence[str], environment: dict[str, str] | None = None) -> Run:
+    """Run a command to its end; peak memory is the kernel's account of that process alone.
+
+    Raises:
+        RuntimeError: it failed; the message holds what it wrote.
+    """
+    start = time.perf_counter()
+    child = subprocess.Popen(
+        command,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        env={**os.environ, **(environment or {})},
+    )
+    assert child.stdout is not None
+    with child.stdout as stream:
+        output = stream.read()
+    _, status, usage = os.wait4(child.pid, 0)
+    seconds = time.perf_counter() - start
+    child.returncode = os.waitstatus_to_exitcode(status)
+    if child.returncode:
+        raise RuntimeError(f"{' '.join(command)}: exit code {child.returncode}\n{output}")
+    unit = 1 if sys.platform == "darwin" else 1024  # ru_maxrss is in bytes there, else in kB
+    return Run(seconds, usage.ru_maxrss * unit / 1e6, output)
+
+
+def machine() -> list[str]:
+    """What was measured on, one line each."""
+    model = ""
+    info = Path("/proc/cpuinfo")
+    if info.exists():
+        names = [line for line in info.read_text().splitlines() if line.startswith("model name")]
+        model = f", {names[0].partition(':')[2].strip()}" if names else ""
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 1e9
+    packages = ", ".join(f"{name} {version(name)}" for name in PACKAGES)
+    return [
+        f"Machine: {os.cpu_count()} processors{model}, {memory:.0f} GB, {platform.system()}",
+        f"Python {platform.python_version()}, symboslam {symboslam.__version__}, {packages}",
+    ]
+
+
+def table(head: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
+    """A Markdown table, numbers to the right."""
+    lines = [head, ["---"] + ["---:"] * (len(head) - 1), *rows]
+    return "\n".join(f"| {' | '.join(map(str, line))} |" for line in lines)

@@ -1,0 +1,153 @@
+"""EnvironmentMap: segments with environment types, probabilities and reasons."""
+
+from __future__ import annotations
+
+import difflib
+import html
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from symboslam.engine._base import Contributions, Evidence
+from symboslam.engine.explanation import Explanation, Reason, reasons_of
+from symboslam.engine.grid import Cells
+from symboslam.engine.landmarks import LandmarkMap
+from symboslam.engine.wording import tell
+from symboslam.errors import UnknownNameError
+from symboslam.reasoning.knowledge import Environment, Knowledge
+
+
+@dataclass(frozen=True)
+class EnvironmentMap:
+    """Segments of a map, column by column (s segments, K environments of the scheme in use).
+
+    Attributes:
+        environments: the K environment types of the scheme; the order of every K axis.
+        geometry: (s,) shapely polygons in metres of ``landmarks.frame``.
+        label: (s,) index into ``environments``; -1 = unknown.
+        probability: (s, K), rows sum to 1, or are all 0 where unknown.
+        segment_id: (s,) text, unique: depth-row-column of the cell, rows from the south.
+        landmark_count: (s,) landmarks inside.
+        depth: (s,) how often the segment's cell was split.
+        landmarks: what was classified.
+        knowledge: what it was classified with.
+        config: every setting in force, as plain values.
+        evidence: what the probabilities were computed from.
+        evidence_cells: (s,) the cells whose evidence each segment has (its own, or a parent's).
+    """
+
+    environments: tuple[Environment, ...]
+    geometry: NDArray[Any]
+    label: NDArray[np.int16]
+    probability: NDArray[np.float64]
+    segment_id: NDArray[np.str_]
+    landmark_count: NDArray[np.int64]
+    depth: NDArray[np.int16]
+    landmarks: LandmarkMap
+    knowledge: Knowledge
+    config: Mapping[str, Any]
+    evidence: Evidence
+    evidence_cells: Cells
+
+    def __len__(self) -> int:
+        return len(self.label)
+
+    @cached_property
+    def _positions(self) -> dict[str, int]:
+        return {str(name): i for i, name in enumerate(self.segment_id)}
+
+    def position_of(self, segment_id: str) -> int:
+        """Position of a segment.
+
+        Raises:
+            UnknownNameError: no such segment; names the closest ids.
+        """
+        found = self._positions.get(str(segment_id))
+        if found is None:
+            close = difflib.get_close_matches(str(segment_id), self._positions, 3, 0)
+            raise UnknownNameError(
+                f"no segment {segment_id!r} in this map of {len(self)}; close: {', '.join(close)}"
+            )
+        return found
+
+    def contributions(self, segments: Sequence[int]) -> Iterator[Contributions]:
+        """The landmarks behind each of the segments (positions), in units of P~."""
+        cells = self.evidence_cells.take(np.asarray(segments, np.int64))
+        return self.evidence.contributions(cells)
+
+    def reasons(
+        self, segments: Sequence[int], limit: int | None = None
+    ) -> list[tuple[Reason, ...]]:
+        """Reasons of several segments (positions), the strongest for their label first."""
+        known = [i for i in segments if self.label[i] >= 0]
+        found = {
+            i: reasons_of(
+                parts, self.landmarks, self.knowledge, self.environments, int(self.label[i])
+            )[:limit]
+            for i, parts in zip(known, self.contributions(known), strict=True)
+        }
+        return [found.get(i, ()) for i in segments]
+
+    def name_of(self, position: int) -> str | None:
+        """Environment of a segment, or None if unknown."""
+        label = int(self.label[position])
+        return None if label < 0 else self.environments[label].name
+
+    def explain(self, segment_id: str) -> Explanation:
+        """Why a segment is what it is; its reasons add up to its probabilities.
+
+        Raises:
+            UnknownNameError: no such segment.
+        """
+        i = self.position_of(segment_id)
+        return Explanation(
+            segment_id=str(self.segment_id[i]),
+            environment=self.name_of(i),
+            probabilities={
+                e.name: float(p)
+                for e, p in zip(self.environments, self.probability[i], strict=True)
+                if self.label[i] >= 0
+            },
+            reasons=self.reasons([i])[0],
+        )
+
+    def tell(self, segment_id: str, *, against: str | None = None, limit: int = 4) -> str:
+        """The explanation of a segment in words.
+
+        Args:
+            segment_id: the segment.
+            against: the environment to compare with; None takes the one that comes second.
+            limit: how many kinds of landmarks to name.
+
+        Raises:
+            UnknownNameError: no such segment.
+        """
+        return tell(
+            self.explain(segment_id), self.knowledge.find_indication, against=against, limit=limit
+        )
+
+    def shares(self) -> dict[str | None, float]:
+        """Environment name (None = unknown) -> share of the map's area, in scheme order."""
+        area = shapely.area(self.geometry)
+        names = [*(e.name for e in self.environments), None]
+        total = np.bincount(self.label % len(names), area, len(names))
+        return {n: float(a / area.sum()) for n, a in zip(names, total, strict=True)}
+
+    def __repr__(self) -> str:
+        parts = ", ".join(f"{n or 'unknown'} {p:.0%}" for n, p in self.shares().items() if p)
+        return f"EnvironmentMap({len(self)} segments from {len(self.landmarks)} landmarks: {parts})"
+
+    def _repr_html_(self) -> str:
+        """A table of the environments for notebooks."""
+        colours = {e.name: e.colour for e in self.environments}
+        rows = "".join(
+            f"<tr><td style='background:{html.escape(colours.get(str(n), '#ddd'))}'>&emsp;</td>"
+            f"<td>{html.escape(n or 'unknown')}</td><td>{p:.1%}</td></tr>"
+            for n, p in self.shares().items()
+        )
+        return f"<table><caption>{html.escape(repr(self))}</caption>{rows}</table>"

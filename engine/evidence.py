@@ -1,0 +1,143 @@
+"""The paper's two equations: evidence from all pairs of landmarks inside a segment (design 5)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symboslam.engine._base import Contributions, Evidence, normalised
+from symboslam.engine.grid import Cells, Grid
+from symboslam.engine.landmarks import LandmarkMap
+from symboslam.engine.settings import Settings
+
+Floats = NDArray[np.float64]
+BLOCK = 2_000_000
+"""Distances held at a time: 16 MB, far below a whole z x z matrix."""
+
+
+def nearness(xy: Floats, member: Floats, diagonal: float) -> Floats:
+    """Sum of 1 - d(x, y) over the other members y, for each landmark x and environment e.
+
+    Args:
+        xy: (z, 2) positions in metres.
+        member: (z, K) 1 where SP(e, x) > 0.
+        diagonal: the segment's diagonal in metres; d is the distance over it, at most 1.
+
+    Returns:
+        (z, K).
+    """
+    from scipy.spatial.distance import cdist
+
+    near = np.empty(member.shape)
+    rows = max(1, BLOCK // max(len(xy), 1))
+    for start in range(0, len(xy), rows):
+        part = slice(start, start + rows)
+        distance = cdist(xy[part], xy)
+        distance /= diagonal
+        near[part] = np.subtract(1, distance, out=distance) @ member
+    return near - member  # a landmark makes no pair with itself, where 1 - d = 1
+
+
+def pair_evidence(
+    xy: Floats, weight: Floats, diagonal: float, a: float = 0.5
+) -> tuple[Floats, Floats, Floats]:
+    """P~, C and n of one segment (paper equations 2 and 3 as made exact in design 5).
+
+    C(e) = 1/n_e * sum over x != y in S_e of 1/2 (w_x + w_y)(1 - d(x, y)), and by symmetry that is
+    1/n_e * sum over x of w_x * sum over y != x of (1 - d(x, y)), which is one matrix product.
+
+    Args:
+        xy: (z, 2) positions in metres.
+        weight: (z, K) SP(e, x) * f_x; S_e are the rows above 0.
+        diagonal: the segment's diagonal in metres.
+        a: weight of C, 0 < a < 1.
+
+    Returns:
+        (P~ (K,), C (K,), n (K,)): P~ = a C + (1 - a) n / (z (z - 1)); all 0 where z < 2.
+    """
+    own, shared, n = _parts(xy, weight, diagonal, a)
+    c = shared.sum(0) / a
+    return own.sum(0) + shared.sum(0), c, n
+
+
+def _parts(xy: Floats, weight: Floats, diagonal: float, a: float) -> tuple[Floats, Floats, Floats]:
+    """Each landmark's part of the second and of the first term of P~, both (z, K); and n (K,)."""
+    z, k = weight.shape
+    if z < 2:
+        return np.zeros((z, k)), np.zeros((z, k)), np.zeros(k)
+    member = (weight > 0).astype(np.float64)
+    size = member.sum(0)
+    n = size * (size - 1)
+    near = nearness(xy, member, diagonal) * member
+    shared = a * np.divide(weight * near, n, out=np.zeros((z, k)), where=n > 0)
+    own = (1 - a) * member * np.maximum(size - 1, 0) / (z * (z - 1))
+    return own, shared, n
+
+
+class PairEvidence(Evidence):
+    """Evidence from the pairs of landmarks inside each cell; cells know nothing of each other.
+
+    Args:
+        landmarks: the map.
+        weight: (n, K) SP(e, x) * f_x of each landmark.
+        grid: the nested cells.
+        settings: a, threshold, min_landmarks.
+    """
+
+    def __init__(
+        self, landmarks: LandmarkMap, weight: Floats, grid: Grid, settings: Settings
+    ) -> None:
+        self._landmarks, self._weight, self._grid, self._settings = (
+            landmarks,
+            weight,
+            grid,
+            settings,
+        )
+        row, column = grid.finest_of(landmarks.x, landmarks.y)
+        self._sorted = {}
+        for depth in range(grid.depth + 1):
+            span = int(grid.span(depth))
+            number = row // span * (grid.cells // span) + column // span
+            order = np.argsort(number, kind="stable")
+            self._sorted[depth] = (number[order], order)
+
+    def members(self, cells: Cells) -> Iterator[NDArray[np.int64]]:
+        """Positions of the landmarks in each cell."""
+        for depth, row, column in zip(cells.depth, cells.row, cells.column, strict=True):
+            numbers, order = self._sorted[int(depth)]
+            number = row * (self._grid.cells // int(self._grid.span(int(depth)))) + column
+            start, stop = np.searchsorted(numbers, [number, number + 1])
+            yield order[start:stop]
+
+    def _diagonals(self, cells: Cells) -> Floats:
+        west, south, east, north = self._grid.rectangles(cells)
+        return np.hypot(east - west, north - south)
+
+    def of(self, cells: Cells) -> Floats:
+        """(m, K) P~; one landmark alone makes no pair and so gives none."""
+        evidence = np.zeros((len(cells), self._weight.shape[1]))
+        xy = self._landmarks.xy
+        diagonals = self._diagonals(cells)
+        for i, inside in enumerate(self.members(cells)):
+            if len(inside) > 1:
+                evidence[i] = pair_evidence(
+                    xy[inside], self._weight[inside], diagonals[i], self._settings.a
+                )[0]
+        return evidence
+
+    def settled(self, cells: Cells, evidence: Floats) -> NDArray[np.bool_]:
+        """A cell with too few landmarks, or whose largest P reaches the threshold."""
+        count = np.array([len(inside) for inside in self.members(cells)])
+        few = count < max(self._settings.min_landmarks, 1)
+        return few | (normalised(evidence).max(1, initial=0) >= self._settings.threshold)
+
+    def contributions(self, cells: Cells) -> Iterator[Contributions]:
+        """Each landmark's share of the inferences (own) and of C (pairs)."""
+        for inside, diagonal in zip(self.members(cells), self._diagonals(cells), strict=True):
+            weight = self._weight[inside]
+            own, shared, _ = _parts(
+                self._landmarks.xy[inside], weight, float(diagonal), self._settings.a
+            )
+            yield Contributions(inside, own, shared, np.zeros(weight.shape[1]))

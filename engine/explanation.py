@@ -1,0 +1,111 @@
+"""Explanation: why a segment is what it is, as sums that anyone can check."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symboslam.engine._base import Contributions
+from symboslam.engine.landmarks import LandmarkMap
+from symboslam.reasoning.knowledge import Environment, Knowledge
+
+
+@dataclass(frozen=True)
+class Reason:
+    """What all landmarks of one feature class, or the open ground, add to a segment's P.
+
+    Attributes:
+        feature: local name of the feature; of an absence feature for open ground.
+        label: words for people.
+        count: landmarks of this feature that had a say (0 for open ground).
+        contribution: environment name -> share of P(e); summed over a segment's reasons it is
+            exactly P(e).
+    """
+
+    feature: str
+    label: str
+    count: int
+    contribution: Mapping[str, float]
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """A segment's probabilities and the reasons that add up to them.
+
+    Attributes:
+        segment_id: the segment.
+        environment: its environment type, or None if unknown.
+        probabilities: environment name -> P(e).
+        reasons: one for each feature class that had a say, strongest for ``environment`` first.
+    """
+
+    segment_id: str
+    environment: str | None
+    probabilities: Mapping[str, float]
+    reasons: tuple[Reason, ...]
+
+    @property
+    def runner_up(self) -> str | None:
+        """The environment that comes second, or None."""
+        others = {e: p for e, p in self.probabilities.items() if e != self.environment and p > 0}
+        return max(others, key=others.__getitem__) if others else None
+
+    def speaking_for(self, environment: str) -> list[Reason]:
+        """Reasons that have a part in P(environment), the largest first."""
+        found = [r for r in self.reasons if r.contribution.get(environment)]
+        return sorted(found, key=lambda r: -r.contribution[environment])
+
+
+def reasons_of(
+    contributions: Contributions,
+    landmarks: LandmarkMap,
+    knowledge: Knowledge,
+    environments: tuple[Environment, ...],
+    winner: int,
+) -> tuple[Reason, ...]:
+    """A segment's contributions by feature class, as shares of P, the strongest first.
+
+    Args:
+        contributions: of one segment.
+        landmarks: the map that their positions refer to.
+        knowledge: names and labels.
+        environments: the K environments.
+        winner: index of the segment's environment; reasons are sorted by their part in it.
+    """
+    total = contributions.total.sum()
+    if total <= 0:
+        return ()
+    classes, index, counts = np.unique(
+        landmarks.feature[contributions.landmark], return_inverse=True, return_counts=True
+    )
+    shares = np.zeros((len(classes), len(environments)))
+    np.add.at(shares, index, contributions.each / total)
+    found = [
+        _reason(knowledge, int(c), int(n), share, environments)
+        for c, n, share in zip(classes, counts, shares, strict=True)
+        if share.any()
+    ]
+    if contributions.ground.any() and knowledge.absence:
+        ground = knowledge.index_of(knowledge.absence[0])
+        if ground is not None:
+            found.append(
+                _reason(knowledge, ground, 0, contributions.ground / total, environments)
+            )
+    name = environments[winner].name
+    return tuple(sorted(found, key=lambda r: -abs(r.contribution.get(name, 0.0))))
+
+
+def _reason(
+    knowledge: Knowledge,
+    feature: int,
+    count: int,
+    share: NDArray[np.float64],
+    environments: tuple[Environment, ...],
+) -> Reason:
+    known = knowledge.features[feature]
+    parts = {e.name: float(v) for e, v in zip(environments, share, strict=True) if v}
+    return Reason(known.name, known.label, count, parts)
+

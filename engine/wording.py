@@ -1,0 +1,60 @@
+"""Wording: explanations in sentences that can be read aloud."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from symboslam.engine.explanation import Explanation, Reason
+from symboslam.reasoning.knowledge import Indication
+
+Why = Callable[[str, str], Indication | None]
+"""(feature name, environment name) -> the indication behind it, if there is one."""
+LEAST = 0.005
+"""Parts of P below this are summed up instead of told."""
+
+
+def tell(explanation: Explanation, why: Why, *, against: str | None = None, limit: int = 4) -> str:
+    """Why a segment is what it is, and why not what comes second.
+
+    Args:
+        explanation: of one segment.
+        why: finds the sentence behind a feature and an environment.
+        against: the environment to compare with; None takes the runner-up.
+        limit: how many feature classes to name for each environment.
+    """
+    p = explanation.probabilities
+    name = explanation.environment
+    if name is None:
+        return (
+            f"Segment {explanation.segment_id} is unknown: it was not looked at, "
+            "or nothing in and around it says anything."
+        )
+    lines = [f"Segment {explanation.segment_id} is {name} (P = {p[name]:.2f})."]
+    lines += _told(explanation, name, why, limit)
+    other = against or explanation.runner_up
+    if other and other != name:
+        chance = p.get(other, 0.0)
+        found = _told(explanation, other, why, limit)
+        lines.append(f"Why not {other} (P = {chance:.2f})?")
+        lines += found or ["  Nothing in or around the segment points to it."]
+    return "\n".join(lines)
+
+
+def _told(explanation: Explanation, environment: str, why: Why, limit: int) -> list[str]:
+    """A line for each of the strongest reasons for one environment, and one for the rest."""
+    reasons = explanation.speaking_for(environment)
+    named = [r for r in reasons if r.contribution[environment] >= LEAST][:limit]
+    lines = [_line(r, environment, why) for r in named]
+    rest = sum(r.contribution[environment] for r in reasons if r not in named)
+    if len(reasons) > len(named) and abs(rest) >= LEAST:
+        lines.append(f"  {rest:+.2f}  {len(reasons) - len(named)} further kinds of landmarks")
+    return lines
+
+
+def _line(reason: Reason, environment: str, why: Why) -> str:
+    subject = f"{reason.count} x {reason.label}" if reason.count else reason.label
+    indication = why(reason.feature, environment)
+    because = f": {indication.reason}" if indication and indication.reason else ""
+    if indication and indication.steps:
+        because += f" [{' > '.join(indication.path)}]"
+    return f"  {reason.contribution[environment]:+.2f}  {subject}{because}"

@@ -1,0 +1,171 @@
+"""Where a map comes from and what its words mean, as RDF records."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator
+from datetime import datetime
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from symboslam import __version__
+from symboslam.engine.writers.rdf_records import Record, Records, digits
+from symboslam.engine.writers.rdf_syntax import ABSOLUTE_IRI, Properties
+from symboslam.engine.writers.vocabulary import (
+    DCTERMS,
+    GEO,
+    OWL,
+    PROV,
+    RDFS,
+    SKOS,
+    SOFTWARE,
+    XSD,
+)
+from symboslam.reasoning.vocabulary import SL
+
+
+def provenance(records: Records, ended: datetime | None) -> Iterator[Record]:
+    """The map, the run that made it, and what the run used.
+
+    Args:
+        records: the map.
+        ended: when the run ended; None leaves it out.
+    """
+    s, m, a = records.syntax, records.map, records.a
+    area = shapely.to_wkt(
+        shapely.box(*records.content.bbox), rounding_precision=records.content.decimals
+    )
+    yield s.own("map"), [
+        a(SL + "EnvironmentMap", PROV + "Entity"),
+        (s.iri(PROV + "wasGeneratedBy"), [s.own("run")]),
+        (s.iri(DCTERMS + "spatial"), [[a(GEO + "Feature"), records.geometry(area)]]),
+        (s.iri(SL + "considers"), list(records.environments)),
+    ]
+    agent = s.iri(SOFTWARE + __version__)
+    run: Properties = [
+        a(SL + "ClassificationRun", PROV + "Activity"),
+        (s.iri(PROV + "used"), [s.own("landmarks"), s.own("ontology")]),
+        (s.iri(PROV + "wasAssociatedWith"), [agent]),
+    ]
+    if ended is not None:
+        when = s.typed(ended.isoformat(), XSD + "dateTime")
+        run.append((s.iri(PROV + "endedAtTime"), [when]))
+    settings = [_setting(records, n, v) for n, v in sorted(m.config.items()) if v is not None]
+    if settings:
+        run.append((s.iri(SL + "hasSetting"), list(settings)))
+    yield s.own("run"), run
+    yield agent, [
+        a(PROV + "SoftwareAgent"),
+        (s.iri(RDFS + "label"), [s.text("SymboSLAM", "en")]),
+        (s.iri(OWL + "versionInfo"), [s.text(__version__)]),
+    ]
+    yield s.own("ontology"), [
+        a(SL + "OntologySource", PROV + "Entity"),
+        (s.iri(DCTERMS + "source"), [s.text(m.knowledge.source)]),
+        (s.iri(SL + "sha256"), [s.text(m.knowledge.source_hash)]),
+    ]
+    yield s.own("landmarks"), _landmark_set(records)
+    for name in _agents(m.landmarks.agent):
+        yield s.own("agent", name), [a(PROV + "Agent"), (s.iri(RDFS + "label"), [s.text(name)])]
+
+
+def terms(records: Records) -> Iterator[Record]:
+    """The environments and features that occur, so that the file explains itself."""
+    s, content = records.syntax, records.content
+    for name, e in content.environments().items():
+        found = _term(records, "Environment", name, e["label"])
+        if e["definition"]:
+            found.append((s.iri(SKOS + "definition"), [s.text(e["definition"], "en")]))
+        found.append((s.iri(SL + "colour"), [s.text(e["colour"])]))
+        yield records.environment_named[name], found
+    known = records.map.knowledge.features
+    seen = [known[i] for i in np.unique(records.map.landmarks.feature).tolist()]
+    explained = content.features()
+    labels = {**{f.name: f.label for f in seen}, **content.mentioned}
+    for name, label in sorted(labels.items()):
+        found = _term(records, "Feature", name, label)
+        indications = explained.get(name, {}).get("indications", {})
+        if indications:
+            nodes = [_indication(records, e, i) for e, i in indications.items()]
+            found.append((s.iri(SL + "hasIndication"), list(nodes)))
+        yield records.feature_named[name], found
+
+
+def _setting(records: Records, name: str, value: Any) -> Properties:
+    s = records.syntax
+    if isinstance(value, bool):
+        term = s.typed(str(value).lower(), XSD + "boolean")
+    elif isinstance(value, int):
+        term = s.integer(value)
+    elif isinstance(value, float) and math.isfinite(value):
+        term = s.decimal(digits(value))
+    else:
+        term = s.text(value if isinstance(value, str) else json.dumps(value, default=str))
+    return [
+        records.a(SL + "Setting"),
+        (s.iri(SL + "settingName"), [s.text(name)]),
+        (s.iri(SL + "settingValue"), [term]),
+    ]
+
+
+def _landmark_set(records: Records) -> Properties:
+    """What was read, and what of it was left out and why."""
+    s, report = records.syntax, records.map.landmarks.report
+    found: Properties = [
+        records.a(SL + "LandmarkSet", PROV + "Entity"),
+        (s.iri(SL + "landmarkCount"), [s.integer(len(records.map.landmarks))]),
+    ]
+    if report.source:
+        found.append((s.iri(DCTERMS + "source"), [s.text(report.source)]))
+    left = [("not in the ontology", name, n) for name, n in sorted(report.unknown.items())]
+    left += [("outside the area", "", report.outside), ("duplicate", "", report.duplicates)]
+    for cause, what, count in left:
+        if count:
+            node: Properties = [
+                records.a(SL + "LeftOut"),
+                (s.iri(SL + "cause"), [s.text(cause, "en")]),
+                (s.iri(SL + "count"), [s.integer(count)]),
+            ]
+            if what:
+                node.append((s.iri(RDFS + "label"), [s.text(what)]))
+            found.append((s.iri(SL + "leftOut"), [node]))
+    if report.notes:
+        found.append((s.iri(RDFS + "comment"), [s.text(note, "en") for note in report.notes]))
+    return found
+
+
+def _agents(agents: NDArray[Any] | None) -> list[str]:
+    """Names of all agents, each once."""
+    return [] if agents is None else sorted({str(a) for a in agents if a})
+
+
+def _term(records: Records, kind: str, name: str, label: str) -> Properties:
+    s = records.syntax
+    return [
+        records.a(OWL + "Class"),
+        (s.iri(RDFS + "subClassOf"), [s.iri(SL + kind)]),
+        (s.iri(SKOS + "notation"), [s.text(name)]),
+        (s.iri(RDFS + "label"), [s.text(label, "en")]),
+    ]
+
+
+def _indication(records: Records, environment: str, indication: dict[str, Any]) -> Properties:
+    s = records.syntax
+    found: Properties = [
+        records.a(SL + "Indication"),
+        (s.iri(SL + "environment"), [records.environment_named[environment]]),
+        (s.iri(SL + "strength"), [s.decimal(digits(indication["strength"]))]),
+        (s.iri(SL + "steps"), [s.integer(indication["steps"])]),
+        (s.iri(SL + "way"), [s.text(" > ".join(indication["path"]))]),
+    ]
+    if indication["reason"]:
+        found.append((s.iri(RDFS + "comment"), [s.text(indication["reason"], "en")]))
+    if indication["source"]:
+        found.append((s.iri(DCTERMS + "source"), [s.text(indication["source"])]))
+    if ABSOLUTE_IRI.fullmatch(indication["source_iri"]):
+        found.append((s.iri(PROV + "wasDerivedFrom"), [s.iri(indication["source_iri"])]))
+    return found

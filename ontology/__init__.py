@@ -1,0 +1,1 @@
+"""The bundled ontology: OWL modules in Turtle, read as package data."""

@@ -1,0 +1,1 @@
+"""The bundled ontology's knowledge, reasoned beforehand: ``knowledge.json``, a generated file."""

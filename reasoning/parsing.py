@@ -1,0 +1,216 @@
+"""Parse one ontology file of any usual format into a graph, without ever touching the network."""
+
+from __future__ import annotations
+
+import json
+import re
+from itertools import count
+from pathlib import PurePath
+from typing import TYPE_CHECKING, Any
+from xml.parsers import expat
+from xml.sax import SAXParseException
+
+from symboslam.errors import OntologySyntaxError
+from symboslam.reasoning.vocabulary import OWL_NAMESPACE
+
+if TYPE_CHECKING:
+    from rdflib import Graph
+
+_BY_EXTENSION = {
+    ".ttl": "turtle",
+    ".n3": "n3",
+    ".nt": "turtle",  # N-Triples is a subset of Turtle, whose parser reports lines
+    ".jsonld": "json-ld",
+    ".json": "json-ld",
+    ".omn": "Manchester syntax",
+    ".ofn": "functional syntax",
+    ".fss": "functional syntax",
+    ".obo": "OBO format",
+}
+_UNSUPPORTED = ("Manchester syntax", "functional syntax", "OBO format")
+EXTENSIONS = (".ttl", ".owl", ".rdf", ".xml", ".owx", ".nt", ".n3", ".jsonld", ".json")
+"""Extensions that an ontology file may have here; the content decides where they do not."""
+
+_XML_START = re.compile(rb"<(\?xml|!|[\w.-]+(:[\w.-]+)?\s)")  # not <http://...>
+
+# A document may not grow by more than this when its entities are expanded ("billion laughs").
+_EXPANSION_FACTOR, _EXPANSION_FREE = 10, 1_000_000
+
+
+def parse(name: str, data: bytes) -> Graph:
+    """The graph of an ontology file.
+
+    Args:
+        name: the file's name, for its extension and for messages.
+        data: its content.
+
+    Raises:
+        OntologySyntaxError: it does not parse, its format is not supported, or it asks for
+            something outside itself (external XML entities, remote JSON-LD contexts).
+    """
+    from rdflib import Graph
+
+    graph = Graph()
+    try:
+        language = _language(name, data)
+        if language in _UNSUPPORTED:
+            raise _error(
+                name,
+                None,
+                f"{language} is not supported; save it as Turtle, RDF/XML, OWL/XML, N-Triples or "
+                "JSON-LD (Protégé and ROBOT can)",
+            )
+        if language == "owl/xml":
+            _parse_owl_xml(name, data, graph)
+        else:
+            if language == "json-ld":
+                _refuse_remote_contexts(name, json.loads(data.decode("utf-8-sig")))
+            base = f"file:///{PurePath(name).name.replace(' ', '%20')}"
+            graph.parse(data=data, format=language, publicID=base)
+    except OntologySyntaxError:
+        raise
+    except RecursionError:
+        raise _error(name, None, "it is nested too deeply") from None
+    except UnicodeDecodeError as error:
+        line = error.object[: error.start].count(b"\n") + 1
+        raise _error(name, line, "it is not UTF-8 text") from error
+    except Exception as error:  # parsers raise errors of many unrelated types
+        raise _error(name, *_place(error)) from error
+    _refuse_bad_iris(name, graph)
+    return graph
+
+
+def _error(name: str, line: int | None, problem: str) -> OntologySyntaxError:
+    return OntologySyntaxError(f"{name}: {f'line {line}: ' if line else ''}{problem}")
+
+
+def _place(error: Exception) -> tuple[int | None, str]:
+    """Line and problem in an error of one of the parsers."""
+    if hasattr(error, "lines") and hasattr(error, "_why"):  # rdflib's Turtle
+        return int(error.lines) + 1, str(error._why)
+    if isinstance(error, SAXParseException):
+        return error.getLineNumber(), str(error.getMessage())
+    if isinstance(error, json.JSONDecodeError):
+        return error.lineno, error.msg
+    head, _, rest = str(error).partition(":")
+    line, _, problem = rest.partition(":")
+    if head == "None" and line.isdigit():  # rdflib's RDF/XML: "None:line:column: problem"
+        return int(line), problem.partition(":")[2].strip()
+    return None, " ".join(str(error).split()) or type(error).__name__
+
+
+def _language(name: str, data: bytes) -> str:
+    """The name of the parser to use, from the extension or else from the content."""
+    extension = PurePath(name).suffix.lower()
+    if extension in _BY_EXTENSION:
+        return _BY_EXTENSION[extension]
+    text = data.lstrip(b"\xef\xbb\xbf \t\r\n")
+    if _XML_START.match(text):
+        return _xml_language(name, data)
+    if text.startswith((b"{", b"[")) and b"@" in text[:100_000]:
+        return "json-ld"
+    if text.startswith((b"Prefix(", b"Ontology(")):
+        return "functional syntax"
+    if text.startswith((b"Prefix:", b"Ontology:")):
+        return "Manchester syntax"
+    if text.startswith(b"format-version:"):
+        return "OBO format"
+    return "turtle"
+
+
+def _xml_language(name: str, data: bytes) -> str:
+    """``xml`` (RDF/XML) or ``owl/xml``, after a look at the whole document for traps.
+
+    Raises:
+        OntologySyntaxError: not well-formed, an external entity, or entities that explode.
+    """
+    root: list[str] = []
+    grown = 0
+    limit = _EXPANSION_FACTOR * len(data) + _EXPANSION_FREE
+    parser = expat.ParserCreate(namespace_separator="")
+
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        if not root:
+            root.append(tag)
+        text("".join(attributes.values()))
+
+    def text(content: str) -> None:
+        nonlocal grown
+        grown += len(content)
+        if grown > limit:
+            raise _error(name, parser.CurrentLineNumber, "its XML entities explode")
+
+    def entity(
+        entity_name: str, _is_parameter: int, value: str | None, _base: object, system: str | None,
+        *_rest: object,
+    ) -> None:  # fmt: skip
+        if value is None or system is not None:
+            problem = f"the external XML entity {entity_name!r} is refused; write its content here"
+            raise _error(name, parser.CurrentLineNumber, problem)
+
+    parser.StartElementHandler = start
+    parser.CharacterDataHandler = text
+    parser.EntityDeclHandler = entity
+    try:
+        parser.Parse(data, True)
+    except expat.ExpatError as error:
+        raise _error(name, error.lineno, expat.ErrorString(error.code)) from error
+    return "owl/xml" if root[0] == OWL_NAMESPACE + "Ontology" else "xml"
+
+
+def _refuse_remote_contexts(name: str, node: Any) -> None:
+    """Refuse JSON-LD whose terms are explained in another document."""
+    if isinstance(node, list):
+        for item in node:
+            _refuse_remote_contexts(name, item)
+    elif isinstance(node, dict):
+        context = node.get("@context", [])
+        for item in context if isinstance(context, list) else [context]:
+            if isinstance(item, str) or (isinstance(item, dict) and "@import" in item):
+                problem = "a remote JSON-LD context is not fetched; write it into the file"
+                raise _error(name, None, problem)
+        for item in node.values():
+            _refuse_remote_contexts(name, item)
+
+
+def _refuse_bad_iris(name: str, graph: Graph) -> None:
+    """Refuse IRIs with characters that none may have; they could not be written again."""
+    from rdflib import URIRef
+
+    for triple in graph:
+        for term in triple:
+            if isinstance(term, URIRef) and any(c in '<>" {}|\\^`' or c < "!" for c in term):
+                raise _error(name, None, f"<{term}> is not an IRI")
+
+
+def _parse_owl_xml(name: str, data: bytes, graph: Graph) -> None:
+    """Read OWL/XML with owlready2's parser, which neither loads imports nor needs a world."""
+    import io
+
+    from owlready2.base import OwlReadyOntologyParsingError
+    from owlready2.owlxml_2_ntriples import parse as parse_owl_xml
+    from rdflib import BNode, Literal, URIRef
+    from rdflib.term import Identifier
+
+    number = count()
+
+    def term(text: str) -> Identifier:
+        return BNode(text[2:]) if text.startswith("_:") else URIRef(text)
+
+    def on_object(subject: str, predicate: str, value: str) -> None:
+        graph.add((term(subject), URIRef(predicate), term(value)))
+
+    def on_data(subject: str, predicate: str, value: Any, datatype: str) -> None:
+        if datatype.startswith("@"):
+            literal = Literal(value, lang=datatype[1:])
+        else:
+            literal = Literal(value, datatype=URIRef(datatype) if datatype else None)
+        graph.add((term(subject), URIRef(predicate), literal))
+
+    try:
+        parse_owl_xml(io.BytesIO(data), on_object, on_data, lambda: f"_:owlxml{next(number)}")
+    except OwlReadyOntologyParsingError as error:
+        text = str(error)
+        line = text.partition("line ")[2].partition(",")[0]
+        problem = f"it is not OWL/XML: {error.__cause__ or text}"
+        raise _error(name, int(line) if line.isdigit() else None, problem) from error

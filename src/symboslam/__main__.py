@@ -1,0 +1,5 @@
+"""``python -m symboslam``."""
+
+from symboslam.cli import main
+
+main()

@@ -1,0 +1,72 @@
+"""The ``symboslam`` command: its subcommands, and errors as exit codes (0, 1, 2, 3)."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+import typer
+
+from symboslam.cli import classify, explain, ontology, show
+from symboslam.errors import SymboSlamError
+
+app = typer.Typer(
+    name="symboslam",
+    no_args_is_help=True,
+    rich_markup_mode="rich",
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    help="Tell what kind of place each part of a map is, and why.",
+    epilog="Exit codes: 0 done, 1 findings, 2 bad input, 3 internal error.",
+)
+app.command("classify", epilog=classify.EXAMPLES)(classify.classify)
+app.command("explain", epilog=explain.EXAMPLES)(explain.explain)
+app.command("feature", epilog=show.FEATURE_EXAMPLES)(show.feature)
+app.command("environments")(show.environments)
+app.command("sample")(show.sample)
+app.add_typer(ontology.app, name="ontology")
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from symboslam import __version__
+
+        typer.echo(f"symboslam {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _common(
+    version: bool = typer.Option(
+        False, "--version", callback=_version, is_eager=True, help="Print the version."
+    ),
+) -> None:
+    """Options before any command."""
+
+
+def main() -> None:
+    """Run the command line; every error becomes a message and an exit code."""
+    try:
+        app()
+    except SymboSlamError as error:
+        _fail(str(error), error.exit_code)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(0)
+    except KeyboardInterrupt:
+        _fail("interrupted", 130)
+    except MemoryError:
+        _fail("out of memory; a smaller --bbox or fewer --cells needs less", 3)
+    except Exception as error:  # the last resort: a defect of ours, told as one
+        if os.environ.get("SYMBOSLAM_DEBUG"):
+            raise
+        _fail(
+            f"internal error, please report it: {type(error).__name__}: {error} "
+            "(SYMBOSLAM_DEBUG=1 shows where)",
+            3,
+        )
+
+
+def _fail(message: str, code: int) -> None:
+    print(f"symboslam: {message}", file=sys.stderr)
+    sys.exit(code)

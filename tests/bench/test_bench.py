@@ -1,0 +1,65 @@
+"""The bench runs on toy sizes, and its reference gives what a hand computation gives."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+
+
+def run(*arguments: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, *arguments], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+
+
+@pytest.mark.parametrize("case", ["evidence", "classification", "growth", "start-up"])
+def test_each_case_runs_on_toy_sizes(case: str, tmp_path: Path) -> None:
+    out = tmp_path / "RESULTS.md"
+    done = run("-m", "bench", "--tiny", "--only", case, "--out", str(out))
+    assert done.returncode == 0, done.stderr
+    text = out.read_text()
+    assert "Toy sizes" in text
+    assert len([line for line in text.splitlines() if re.match(r"\| [^-|]", line)]) >= 2
+    if case in ("evidence", "classification"):
+        differences = [float(d) for d in re.findall(r"\d(?:\.\d+)?e-\d\d|\b0e\+00", text)]
+        assert differences  # the engine agrees with the plain loops
+        assert max(differences) < 1e-12
+
+
+@pytest.mark.slow
+def test_knowledge_case_runs(tmp_path: Path) -> None:
+    done = run("-m", "bench", "--tiny", "--only", "knowledge")
+    assert done.returncode == 0, done.stderr
+    assert "cold build" in done.stdout
+
+
+def test_reference_by_hand() -> None:
+    """Three landmarks on a 3-4-5 triangle in a segment with a diagonal of 10.
+
+    Environment 0 has all three with weights 1, 0.5, 0.5: d is 0.3, 0.4 and 0.5; unordered pairs
+    give 0.75 * 0.7, 0.75 * 0.6 and 0.5 * 0.5, together 1.225; C = 1.225 / 3; n = 6 of 6.
+    Environment 1 has the first alone: no pair, no evidence.
+    """
+    code = (
+        "from bench.reference import pair_loop\n"
+        "p, c, n = pair_loop([(0, 0), (3, 0), (0, 4)], [[1, 1], [0.5, 0], [0.5, 0]], 10.0)\n"
+        "assert n == [6, 0] and c[1] == p[1] == 0, (p, c, n)\n"
+        "assert abs(c[0] - 1.225 / 3) < 1e-15 and abs(p[0] - (0.5 * c[0] + 0.5)) < 1e-15, (p, c)\n"
+    )
+    done = run("-c", code)
+    assert done.returncode == 0, done.stderr
+
+
+def test_failing_command_is_not_measured() -> None:
+    code = (
+        "import sys\nfrom bench.measure import process\n"
+        "try: process([sys.executable, '-c', 'print(41 + 1); raise SystemExit(3)'])\n"
+        "except RuntimeError as error: assert 'exit code 3' in str(error) and '42' in str(error)\n"
+        "else: raise AssertionError\n"
+    )
+    done = run("-c", code)
+    assert done.returncode == 0, done.stderr
