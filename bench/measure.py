@@ -7,6 +7,7 @@ import platform
 import statistics
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -17,6 +18,7 @@ from typing import Any, TypeVar
 import symboslam
 
 Result = TypeVar("Result")
+LAUNCH = Path(__file__).with_name("launch.py")
 PACKAGES = ("numpy", "scipy", "shapely", "pyproj", "rdflib", "owlready2", "matplotlib", "typer")
 
 
@@ -47,25 +49,22 @@ def process(command: Sequence[str], environment: dict[str, str] | None = None) -
     Raises:
         RuntimeError: it failed; the message holds what it wrote.
     """
-    start = time.perf_counter()
-    child = subprocess.Popen(
-        command,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        env={**os.environ, **(environment or {})},
-    )
-    assert child.stdout is not None
-    with child.stdout as stream:
-        output = stream.read()
-    _, status, usage = os.wait4(child.pid, 0)
-    seconds = time.perf_counter() - start
-    child.returncode = os.waitstatus_to_exitcode(status)
-    if child.returncode:
-        raise RuntimeError(f"{' '.join(command)}: exit code {child.returncode}\n{output}")
-    unit = 1 if sys.platform == "darwin" else 1024  # ru_maxrss is in bytes there, else in kB
-    return Run(seconds, usage.ru_maxrss * unit / 1e6, output)
+    with tempfile.TemporaryDirectory() as folder:
+        report = Path(folder) / "report"
+        done = subprocess.run(
+            [sys.executable, "-I", "-S", str(LAUNCH), str(report), *command],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            env={**os.environ, **(environment or {})},
+            check=True,
+        )
+        seconds, peak, code = report.read_text().split()
+    if code != "0":
+        raise RuntimeError(f"{' '.join(command)}: exit code {code}\n{done.stdout}")
+    unit = 1 if sys.platform == "darwin" else 1024  # bytes there, else kB
+    return Run(float(seconds), int(peak) * unit / 1e6, done.stdout)
 
 
 def machine() -> list[str]:

@@ -119,7 +119,7 @@ def evidence_of(
         return PairEvidence(landmarks, weight, grid, settings)
     absent = [i for i in map(knowledge.index_of, knowledge.absence) if i is not None]
     absence = proximity[absent].sum(0) if absent else np.zeros(proximity.shape[1])
-    bandwidth = settings.bandwidth or knowledge.bandwidth or min(grid.step) / 3
+    bandwidth = settings.bandwidth or knowledge.bandwidth(scheme) or min(grid.step) / 3
     site = np.array([f.site for f in knowledge.features])[landmarks.feature]
     return FieldEvidence(landmarks, weight, grid, settings, bandwidth, site, absence)
 

@@ -39,7 +39,7 @@ class Settings:
     importance: str = "entropy"
     a: float = 0.5
     bandwidth: float | None = None
-    dissimilarity: float = 0.5
+    dissimilarity: float = 0.3
     absence: float | None = None
     cells: int = 24
     threshold: float = 0.95

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -89,7 +89,7 @@ def check_ontology(paths: Sequence[str | Path] | str | Path | None = None) -> Re
         given = [paths] if isinstance(paths, str | Path) else list(paths)
         source, read = ", ".join(map(str, given)), files.read_files([Path(p) for p in given])
     stated = Statements(read.graph)
-    counts = {"classes": len(stated.classes), "indications": len(stated.indications)}
+    counts = Report(source, classes=len(stated.classes), indications=len(stated.indications))
     found = [
         Finding("missing-import", iri, f"the import <{iri}> was not found beside the file")
         for iri in read.missing
@@ -98,9 +98,8 @@ def check_ontology(paths: Sequence[str | Path] | str | Path | None = None) -> Re
         classes = reason(read)
     except InconsistentOntologyError as error:
         found.append(Finding("clash", source, str(error).partition("\n")[0]))
-        return Report(
-            source,
-            **counts,
+        return replace(
+            counts,
             consistent=bool(error.classes),
             unsatisfiable=error.classes,
             clash=error.axioms,
@@ -111,15 +110,12 @@ def check_ontology(paths: Sequence[str | Path] | str | Path | None = None) -> Re
         knowledge = extract(classes)
     except EmptyOntologyError as error:
         found.append(Finding("empty", source, str(error)))
-        return Report(
-            source, **counts, environments=len(classes.environments), findings=tuple(found)
-        )
+        return replace(counts, environments=len(classes.environments), findings=tuple(found))
     except OntologyError:  # a strength, which is among the findings already
-        return Report(source, **counts, findings=tuple(found))
+        return replace(counts, findings=tuple(found))
     found += [*_in_table(knowledge), *_disagreements(classes, knowledge, read)]
-    return Report(
-        source,
-        **counts,
+    return replace(
+        counts,
         environments=len(knowledge.environments),
         features=len(knowledge.features),
         ways=len(knowledge.indications),

@@ -25,7 +25,7 @@ class Classes:
         self.stated, self.hierarchy = stated, hierarchy
 
     def one(self, name: str) -> str:
-        """The IRI for a class and its equals: one of ours, else a tagged one, else the first."""
+        """The IRI for a class and its equals: ours, else of the one that most is stated about."""
         return self._standing.get(name, name)
 
     def group(self, name: str) -> list[str]:
@@ -39,9 +39,11 @@ class Classes:
 
     @cached_property
     def _standing(self) -> dict[str, str]:
-        def rank(name: str) -> tuple[bool, bool, str]:
+        indicating = {s.feature for s in self.stated.indications}
+
+        def rank(name: str) -> tuple[bool, bool, bool, str]:
             tagged = any(self.stated.texts(name, tag) for tag in _TAGS)
-            return not name.startswith(v.SL), not tagged, name
+            return not name.startswith(v.SL), name not in indicating, not tagged, name
 
         return {name: min(group, key=rank) for name, group in self.hierarchy.equals.items()}
 

@@ -70,7 +70,8 @@ class _Extraction:
                 for name, factor in MEASURES.items():
                     best = max(stated.strength * factor(way) for way, stated in ways)
                     proximities[name][i, k] = best if name == "path" else round(best, _DIGITS)
-                indications.append(self._indication(*min(ways, key=_best_first)))
+                is_direct = any(way.steps == 0 for way, _ in ways)
+                indications.append(self._indication(*min(ways, key=_best_first), is_direct))
         if not indications:
             raise EmptyOntologyError(
                 "no feature of the ontology indicates an environment: state for example that "
@@ -85,6 +86,7 @@ class _Extraction:
             proximities=proximities,
             schemes=self._schemes(environments),
             absence=tuple(self.name(c) for c in features if self._is_absence(c)),
+            bandwidths=self._bandwidths(),
             labels={n: self.stated.label(c) for c, n in sorted(self._names.items()) if n in used},
         )
 
@@ -118,7 +120,7 @@ class _Extraction:
                 if on is not None:
                     yield Way(up, on, features, places), stated
 
-    def _indication(self, way: Way, stated: Stated) -> Indication:
+    def _indication(self, way: Way, stated: Stated, is_direct: bool) -> Indication:
         label = self.stated.label
         axioms = [
             *self._steps_in_words(way.up),
@@ -136,6 +138,7 @@ class _Extraction:
             source=(self.stated.given_label(stated.source) or stated.source),
             axioms=tuple(axioms),
             source_iri=stated.source if is_iri else "",
+            is_direct=is_direct,
         )
 
     def _steps_in_words(self, way: tuple[str, ...]) -> Iterator[str]:
@@ -176,7 +179,16 @@ class _Extraction:
             osm_tags=tuple(sorted(set(self._texts(group, v.OSM_TAG)))),
             kinds=tuple(self.name(c) for c in kinds),
             aliases=tuple(sorted(aliases)),
+            site=self._site(name),
         )
+
+    def _site(self, name: str) -> float:
+        """The site radius of the nearest class at or above a feature that states one; else 0."""
+        above = self.classes.features.ways_up(name)
+        for kind in sorted(above, key=lambda c: (len(above[c]), c)):
+            if (radius := self.stated.number(kind, v.SITE_RADIUS)) is not None:
+                return radius
+        return 0.0
 
     def _texts(self, group: Iterable[str], predicate: str) -> Iterator[str]:
         return (text for member in group for text in self.stated.texts(member, predicate))
@@ -189,6 +201,9 @@ class _Extraction:
             if members:
                 found.setdefault(scheme.name, members)
         return found or {"all": tuple(self.name(c) for c in environments)}
+
+    def _bandwidths(self) -> dict[str, float]:
+        return {s.name: s.bandwidth for s in self.stated.schemes if s.bandwidth is not None}
 
 
 def _best_first(way: tuple[Way, Stated]) -> tuple[float, int, tuple[str, ...], str]:

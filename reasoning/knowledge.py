@@ -60,6 +60,7 @@ class Feature:
         osm_tags: ``key=value`` or ``key=*``.
         kinds: names of the classes above it, nearest first; ``Feature`` itself is left out.
         aliases: IRIs of classes that mean the same, such as those of the ontology of 2022.
+        site: radius in metres of the ground that goes with one such landmark; 0 if not stated.
     """
 
     iri: str
@@ -71,6 +72,7 @@ class Feature:
     osm_tags: tuple[str, ...] = ()
     kinds: tuple[str, ...] = ()
     aliases: tuple[str, ...] = ()
+    site: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -87,6 +89,8 @@ class Indication:
         source: where the axiom comes from, in words.
         axioms: the axioms along the way, in words.
         source_iri: where the axiom comes from, if that has an IRI.
+        is_direct: whether f also indicates e itself by an axiom of its own (then h is 0, or this
+            longer way is the stronger one).
     """
 
     feature: str
@@ -98,6 +102,7 @@ class Indication:
     source: str = ""
     axioms: tuple[str, ...] = ()
     source_iri: str = ""
+    is_direct: bool = False
 
     @property
     def proximity(self) -> float:
@@ -119,6 +124,8 @@ class Knowledge:
         source_hash: SHA-256 of the sources.
         source: where it was loaded from.
         labels: local name of any class on a path -> words for people.
+        bandwidths: scheme name -> how far in metres its landmarks speak for the ground around
+            them, where the ontology states it.
         notes: what a user should know about the loading, such as imports that were not found.
     """
 
@@ -131,6 +138,7 @@ class Knowledge:
     source_hash: str = ""
     source: str = "bundled"
     labels: Mapping[str, str] = field(default_factory=dict)
+    bandwidths: Mapping[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
 
     @classmethod
@@ -208,6 +216,15 @@ class Knowledge:
         """
         return self._indications.get(self.get_feature(feature).name, ())
 
+    def find_indication(self, feature: str, environment: str) -> Indication | None:
+        """The strongest way from a feature, by its local name, to an environment; or None."""
+        ways = self._indications.get(feature, ())
+        return next((way for way in ways if way.environment == environment), None)
+
+    def bandwidth(self, scheme: str | None = None) -> float | None:
+        """How far in metres landmarks speak for the ground around them; None if not stated."""
+        return self.bandwidths.get(next(iter(self.schemes)) if scheme is None else scheme)
+
     def scheme(self, name: str | None = None) -> tuple[Environment, ...]:
         """The environment types of a scheme, in the order of ``environments``; None: the default.
 
@@ -259,7 +276,7 @@ class Knowledge:
         return proximity * self.importance(measure, scheme)[:, None]
 
     def direct(self, scheme: str | None = None) -> Floats:
-        """(F, K) 1 where a feature indicates an environment directly (no steps), else 0.
+        """(F, K) 1 where an axiom says that a feature itself indicates an environment, else 0.
 
         Raises:
             UnknownNameError: there is no such scheme.
@@ -268,7 +285,7 @@ class Knowledge:
         rows = {feature.name: i for i, feature in enumerate(self.features)}
         columns = {environment.name: k for k, environment in enumerate(self.environments)}
         for way in self.indications:
-            if way.steps == 0:
+            if way.is_direct:
                 links[rows[way.feature], columns[way.environment]] = 1.0
         return links[:, self._columns(scheme)]
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from symboslam.errors import EmptyOntologyError, OntologyError
+from symboslam.errors import EmptyOntologyError
 from symboslam.reasoning import sources as files
 from symboslam.reasoning import store
 from symboslam.reasoning.knowledge import Knowledge
@@ -46,7 +46,7 @@ def reason(read: files.Sources, reasoner: Reasoner | None = None) -> Classes:
 
     Raises:
         InconsistentOntologyError: it contradicts itself, or a class can have no members.
-        OntologyError: it is outside OWL 2 DL, or its expressions do not end.
+        OntologyError: it is outside OWL 2 DL.
         ReasonerError: the reasoner could not be run.
     """
     from symboslam.reasoning.axioms import split
@@ -56,10 +56,7 @@ def reason(read: files.Sources, reasoner: Reasoner | None = None) -> Classes:
     from symboslam.reasoning.statements import Statements
 
     reasoner = reasoner or Hermit()
-    try:
-        declared, axioms = split(read.graph)
-    except (RecursionError, ValueError) as error:
-        raise OntologyError(f"the ontology's expressions go in circles: {error}") from error
+    declared, axioms = split(read.graph)
     hierarchy = reasoner.classify([*declared, *(t for a in axioms for t in a.triples)])
     if hierarchy is None or hierarchy.unsatisfiable:
         raise refuse(reasoner, declared, axioms, hierarchy)

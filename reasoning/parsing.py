@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import json
 import re
 from itertools import count
@@ -18,8 +19,8 @@ if TYPE_CHECKING:
 
 _BY_EXTENSION = {
     ".ttl": "turtle",
-    ".n3": "n3",
-    ".nt": "turtle",  # N-Triples is a subset of Turtle, whose parser reports lines
+    ".n3": "turtle",
+    ".nt": "turtle",  # a subset of Turtle, whose parser reports lines
     ".jsonld": "json-ld",
     ".json": "json-ld",
     ".omn": "Manchester syntax",
@@ -35,6 +36,7 @@ _XML_START = re.compile(rb"<(\?xml|!|[\w.-]+(:[\w.-]+)?\s)")  # not <http://...>
 
 # A document may not grow by more than this when its entities are expanded ("billion laughs").
 _EXPANSION_FACTOR, _EXPANSION_FREE = 10, 1_000_000
+_DEEPEST = 100  # levels of an expression
 
 
 def parse(name: str, data: bytes) -> Graph:
@@ -51,6 +53,7 @@ def parse(name: str, data: bytes) -> Graph:
     from rdflib import Graph
 
     graph = Graph()
+    data = data.removeprefix(codecs.BOM_UTF8)
     try:
         language = _language(name, data)
         if language in _UNSUPPORTED:
@@ -60,12 +63,12 @@ def parse(name: str, data: bytes) -> Graph:
                 f"{language} is not supported; save it as Turtle, RDF/XML, OWL/XML, N-Triples or "
                 "JSON-LD (Protégé and ROBOT can)",
             )
+        base = f"file:///{PurePath(name).name.replace(' ', '%20')}"
         if language == "owl/xml":
             _parse_owl_xml(name, data, graph)
+        elif language == "json-ld":
+            _parse_json_ld(name, data, base, graph)
         else:
-            if language == "json-ld":
-                _refuse_remote_contexts(name, json.loads(data.decode("utf-8-sig")))
-            base = f"file:///{PurePath(name).name.replace(' ', '%20')}"
             graph.parse(data=data, format=language, publicID=base)
     except OntologySyntaxError:
         raise
@@ -77,6 +80,7 @@ def parse(name: str, data: bytes) -> Graph:
     except Exception as error:  # parsers raise errors of many unrelated types
         raise _error(name, *_place(error)) from error
     _refuse_bad_iris(name, graph)
+    _refuse_endless(name, graph)
     return graph
 
 
@@ -104,7 +108,7 @@ def _language(name: str, data: bytes) -> str:
     extension = PurePath(name).suffix.lower()
     if extension in _BY_EXTENSION:
         return _BY_EXTENSION[extension]
-    text = data.lstrip(b"\xef\xbb\xbf \t\r\n")
+    text = data.lstrip()
     if _XML_START.match(text):
         return _xml_language(name, data)
     if text.startswith((b"{", b"[")) and b"@" in text[:100_000]:
@@ -158,6 +162,19 @@ def _xml_language(name: str, data: bytes) -> str:
     return "owl/xml" if root[0] == OWL_NAMESPACE + "Ontology" else "xml"
 
 
+def _parse_json_ld(name: str, data: bytes, base: str, graph: Graph) -> None:
+    from rdflib import BNode, Graph
+    from rdflib.plugins.parsers.jsonld import to_rdf
+
+    document = json.loads(data)
+    _refuse_remote_contexts(name, document)
+    to_rdf(document, read := Graph(), base)
+    fresh: dict[object, BNode] = {}  # the parser keeps names, which another file may use too
+    for triple in read:
+        s, p, o = (fresh.setdefault(t, BNode()) if isinstance(t, BNode) else t for t in triple)
+        graph.add((s, p, o))
+
+
 def _refuse_remote_contexts(name: str, node: Any) -> None:
     """Refuse JSON-LD whose terms are explained in another document."""
     if isinstance(node, list):
@@ -183,6 +200,31 @@ def _refuse_bad_iris(name: str, graph: Graph) -> None:
                 raise _error(name, None, f"<{term}> is not an IRI")
 
 
+def _refuse_endless(name: str, graph: Graph) -> None:
+    """Refuse anonymous expressions that contain themselves or are nested beyond all reason."""
+    from rdflib import RDF, BNode
+
+    inside: dict[BNode, list[tuple[BNode, int]]] = {}
+    holders: dict[BNode, int] = {}
+    for s, p, o in graph:
+        if isinstance(s, BNode) and isinstance(o, BNode):
+            inside.setdefault(s, []).append((o, 0 if p == RDF.rest else 1))
+            holders[o] = holders.get(o, 0) + 1
+    depth = dict.fromkeys(inside.keys() - holders.keys(), 0)
+    waiting = list(depth)
+    while waiting:
+        outer = waiting.pop()
+        for inner, step in inside.get(outer, ()):
+            depth[inner] = max(depth.get(inner, 0), depth[outer] + step)
+            holders[inner] -= 1
+            if not holders[inner]:
+                waiting.append(inner)
+    if any(holders.values()):
+        raise _error(name, None, "an anonymous expression contains itself")
+    if max(depth.values(), default=0) > _DEEPEST:
+        raise _error(name, None, "its expressions are nested too deeply")
+
+
 def _parse_owl_xml(name: str, data: bytes, graph: Graph) -> None:
     """Read OWL/XML with owlready2's parser, which neither loads imports nor needs a world."""
     import io
@@ -193,9 +235,10 @@ def _parse_owl_xml(name: str, data: bytes, graph: Graph) -> None:
     from rdflib.term import Identifier
 
     number = count()
+    fresh: dict[str, BNode] = {}
 
     def term(text: str) -> Identifier:
-        return BNode(text[2:]) if text.startswith("_:") else URIRef(text)
+        return fresh.setdefault(text, BNode()) if text.startswith("_:") else URIRef(text)
 
     def on_object(subject: str, predicate: str, value: str) -> None:
         graph.add((term(subject), URIRef(predicate), term(value)))
@@ -208,7 +251,7 @@ def _parse_owl_xml(name: str, data: bytes, graph: Graph) -> None:
         graph.add((term(subject), URIRef(predicate), literal))
 
     try:
-        parse_owl_xml(io.BytesIO(data), on_object, on_data, lambda: f"_:owlxml{next(number)}")
+        parse_owl_xml(io.BytesIO(data), on_object, on_data, lambda: f"_:{next(number)}")
     except OwlReadyOntologyParsingError as error:
         text = str(error)
         line = text.partition("line ")[2].partition(",")[0]

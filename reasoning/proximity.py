@@ -40,7 +40,7 @@ Measure = Callable[[Way], float]
 
 
 def path(way: Way) -> float:
-    """Steps: the factor is ``1 / (1 + h)``, h the steps beyond the direct link (design 4, the default)."""
+    """Steps: the factor is ``1 / (1 + h)``, h those beyond the direct link (the default)."""
     return 1 / (1 + way.steps)
 
 

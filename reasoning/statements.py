@@ -12,6 +12,7 @@ from rdflib import OWL, RDF, RDFS, SKOS, BNode, Graph, Literal, URIRef
 from rdflib.collection import Collection
 from rdflib.term import Node
 
+from symboslam.errors import OntologyError
 from symboslam.reasoning import vocabulary as v
 
 _NECESSARY = (RDFS.subClassOf, OWL.equivalentClass)
@@ -48,11 +49,15 @@ class Stated:
 
 @dataclass(frozen=True)
 class Scheme:
-    """A set of environment types in use: its name, its members' IRIs, whether it is the default."""
+    """A set of environment types in use: its name, its members' IRIs, whether it is the default.
+
+    ``bandwidth`` is how far in metres a landmark speaks for the ground around it, if stated.
+    """
 
     name: str
     members: frozenset[str]
     is_default: bool
+    bandwidth: float | None = None
 
 
 class Statements:
@@ -136,6 +141,17 @@ class Statements:
         found = self.graph.objects(URIRef(name), URIRef(predicate))
         return tuple(sorted({str(text).strip() for text in found}))
 
+    def number(self, name: str, predicate: str) -> float | None:
+        """The largest number above 0 under a predicate, in metres; None if there is none.
+
+        Raises:
+            OntologyError: something is stated that is no such number.
+        """
+        numbers = [_number(o) for o in self.graph.objects(URIRef(name), URIRef(predicate))]
+        if not all(0 < n < math.inf for n in numbers):
+            raise OntologyError(f"{predicate} of {name} must be a number of metres above 0")
+        return max(numbers, default=None)
+
     def is_true(self, name: str, predicate: str) -> bool:
         """Whether ``name predicate true`` is stated."""
         return any(
@@ -158,7 +174,9 @@ class Statements:
         for node in self.graph.subjects(RDF.type, SKOS.ConceptScheme):
             name = self.text(str(node), SKOS.notation) or v.local_name(str(node))
             members = frozenset(str(s) for s in self.graph.subjects(SKOS.inScheme, node))
-            found.append(Scheme(name, members, self.is_true(str(node), v.DEFAULT_SCHEME)))
+            is_default = self.is_true(str(node), v.DEFAULT_SCHEME)
+            bandwidth = self.number(str(node), v.BANDWIDTH)
+            found.append(Scheme(name, members, is_default, bandwidth))
         return tuple(sorted(found, key=lambda s: s.name))
 
     def _necessary(self, name: str) -> Iterator[Node]:
@@ -213,6 +231,8 @@ class Statements:
     def _shape(self, node: Node) -> object:
         if not isinstance(node, BNode):
             return node
+        if (node, RDF.first, None) in self.graph:
+            return tuple(self._shape(member) for member in Collection(self.graph, node))
         pairs = self.graph.predicate_objects(node)
         shapes = ((str(p), self._shape(o)) for p, o in pairs if p != RDF.type)
         return tuple(sorted(shapes, key=repr))

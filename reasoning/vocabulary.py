@@ -22,6 +22,8 @@ COLOUR = SL + "colour"
 PLAN_ZONE = SL + "planZone"
 ABSENCE_FEATURE = SL + "absenceFeature"
 DEFAULT_SCHEME = SL + "defaultScheme"
+SITE_RADIUS = SL + "siteRadius"
+BANDWIDTH = SL + "bandwidth"
 
 # Ontology documents: DOCUMENTS + "core" is what an ontology of one's own imports.
 DOCUMENTS = "https://w3id.org/symboslam/"

@@ -108,10 +108,17 @@ def parse_surveyed(value: object, system: CoordinateSystem, source: str) -> Base
     if kind not in ("Polygon", "MultiPolygon"):
         raise GeometryError(f"{what} is not a Polygon or MultiPolygon geometry but {kind}")
     try:
-        geometry = shapely.force_2d(shape(value))
-    except (ValueError, TypeError, KeyError, IndexError, AttributeError) as error:
-        raise GeometryError(f"{what} has unusable coordinates ({error})") from error
-    except shapely.errors.ShapelyError as error:
+        with np.errstate(invalid="ignore"):  # coordinates that are no numbers are found below
+            geometry = shapely.force_2d(shape(value))
+    except (
+        ValueError,
+        TypeError,
+        KeyError,
+        IndexError,
+        AttributeError,
+        OverflowError,
+        shapely.errors.ShapelyError,
+    ) as error:
         raise GeometryError(f"{what} has unusable coordinates ({error})") from error
     points = shapely.get_coordinates(geometry)
     if geometry.is_empty or not np.isfinite(points).all():

@@ -144,8 +144,8 @@ def _crs(collection: Mapping[str, Any], name: str) -> str:
     units, crs = collection.get("crs_units"), collection.get("crs")
     if units not in (None, METRES):
         raise GeometryError(
-            f'{name}: crs_units is {_show(units)}; "m" (local metres) is the only value that it can '
-            "have, leave it out for longitude and latitude"
+            f'{name}: crs_units is {_show(units)}; "m" (local metres) is the only value that it '
+            "can have, leave it out for longitude and latitude"
         )
     if crs is None:
         return METRES if units else DEGREES
@@ -264,7 +264,8 @@ def _texts(values: list[Any], what: str, name: str) -> list[str | None] | None:
 
 def _name(value: Mapping[str, Any]) -> str:
     kind = value.get("type")
-    return kind[:60] if isinstance(kind, str) else "JSON object without a type"
+    named = isinstance(kind, str) and kind.isprintable()
+    return str(kind)[:60] if named else "JSON object without a type"
 
 
 def _is_position(value: object) -> bool:

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     import osmium
 
 _LAND_USE = frozenset({"landuse", "place", "boundary"})
-"""Keys that state how ground is used or what it is called, not what stands there."""
+"""Keys that on an area state how ground is used or what it is called, not what stands there."""
 
 _AREA_VALUES = {
     "aerialway": {"station"},
@@ -83,7 +83,7 @@ def read(source: Source, knowledge: FeatureIndex, progress: Progress) -> Columns
         else osmium.io.File(str(source.path), suffix)
     )
     try:
-        return _read(packed, source.name, knowledge.tag_keys - _LAND_USE)
+        return _read(packed, source.name, knowledge.tag_keys)
     except (RuntimeError, OSError) as error:
         problem = f"this is not readable OpenStreetMap data, or it is cut short ({error})"
         raise LandmarkError(problem, source=source.name) from error
@@ -191,7 +191,7 @@ def _elements(packed: Any, keys: frozenset[str]) -> Iterator[Any]:
 
 def _area_tags(area: osmium.osm.Area, keys: frozenset[str]) -> Tags:
     """The tags that say what the area is, without those that only describe its outline."""
-    found = sorted((tag.k, tag.v) for tag in area.tags if tag.k in keys)
+    found = sorted((tag.k, tag.v) for tag in area.tags if tag.k in keys and tag.k not in _LAND_USE)
     if not area.from_way() or area.tags.get("area") == "yes":
         return tuple(found)
     return tuple(

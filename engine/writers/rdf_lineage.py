@@ -39,12 +39,15 @@ def provenance(records: Records, ended: datetime | None) -> Iterator[Record]:
     area = shapely.to_wkt(
         shapely.box(*records.content.bbox), rounding_precision=records.content.decimals
     )
-    yield s.own("map"), [
-        a(SL + "EnvironmentMap", PROV + "Entity"),
-        (s.iri(PROV + "wasGeneratedBy"), [s.own("run")]),
-        (s.iri(DCTERMS + "spatial"), [[a(GEO + "Feature"), records.geometry(area)]]),
-        (s.iri(SL + "considers"), list(records.environments)),
-    ]
+    yield (
+        s.own("map"),
+        [
+            a(SL + "EnvironmentMap", PROV + "Entity"),
+            (s.iri(PROV + "wasGeneratedBy"), [s.own("run")]),
+            (s.iri(DCTERMS + "spatial"), [[a(GEO + "Feature"), records.geometry(area)]]),
+            (s.iri(SL + "considers"), list(records.environments)),
+        ],
+    )
     agent = s.iri(SOFTWARE + __version__)
     run: Properties = [
         a(SL + "ClassificationRun", PROV + "Activity"),
@@ -58,16 +61,22 @@ def provenance(records: Records, ended: datetime | None) -> Iterator[Record]:
     if settings:
         run.append((s.iri(SL + "hasSetting"), list(settings)))
     yield s.own("run"), run
-    yield agent, [
-        a(PROV + "SoftwareAgent"),
-        (s.iri(RDFS + "label"), [s.text("SymboSLAM", "en")]),
-        (s.iri(OWL + "versionInfo"), [s.text(__version__)]),
-    ]
-    yield s.own("ontology"), [
-        a(SL + "OntologySource", PROV + "Entity"),
-        (s.iri(DCTERMS + "source"), [s.text(m.knowledge.source)]),
-        (s.iri(SL + "sha256"), [s.text(m.knowledge.source_hash)]),
-    ]
+    yield (
+        agent,
+        [
+            a(PROV + "SoftwareAgent"),
+            (s.iri(RDFS + "label"), [s.text("SymboSLAM", "en")]),
+            (s.iri(OWL + "versionInfo"), [s.text(__version__)]),
+        ],
+    )
+    yield (
+        s.own("ontology"),
+        [
+            a(SL + "OntologySource", PROV + "Entity"),
+            (s.iri(DCTERMS + "source"), [s.text(m.knowledge.source)]),
+            (s.iri(SL + "sha256"), [s.text(m.knowledge.source_hash)]),
+        ],
+    )
     yield s.own("landmarks"), _landmark_set(records)
     for name in _agents(m.landmarks.agent):
         yield s.own("agent", name), [a(PROV + "Agent"), (s.iri(RDFS + "label"), [s.text(name)])]

@@ -88,12 +88,15 @@ class Records:
             kind = self.features[marks.feature[i]]
             landmark = s.own("landmark", name)
             types = [*self.a(SL + "Landmark", GEO + "Feature")[1], kind]
-            yield landmark, [
-                (self._type, types),
-                (identifier, [s.text(name)]),
-                (feature_class, [kind]),
-                self.geometry(f"POINT ({first[i]:.{d}f} {second[i]:.{d}f})"),
-            ]
+            yield (
+                landmark,
+                [
+                    (self._type, types),
+                    (identifier, [s.text(name)]),
+                    (feature_class, [kind]),
+                    self.geometry(f"POINT ({first[i]:.{d}f} {second[i]:.{d}f})"),
+                ],
+            )
             result: Properties = [
                 self.a(SL + "Detection"),
                 (feature_class, [kind]),

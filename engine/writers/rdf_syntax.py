@@ -53,13 +53,10 @@ class Syntax(ABC):
             term = self._terms[iri] = self._reference(clean)
         return term
 
-    def own(self, kind: str, name: str = "") -> str:
+    def own(self, kind: str, name: str | None = None) -> str:
         """The IRI of something in the map: ``base`` + kind, or ``base`` + kind/name."""
-        return self._reference(
-            f"{self.base}{kind}/{quote(name, safe='', errors='replace')}"
-            if name
-            else f"{self.base}{kind}"
-        )
+        tail = "" if name is None else f"/{quote(name, safe='', errors='replace')}"
+        return self._reference(f"{self.base}{kind}{tail}")
 
     def text(self, text: str, language: str = "") -> str:
         """A text."""

@@ -73,7 +73,7 @@ def read_map(path: str | Path) -> StoredMap:
         if suffix in (".ttl", ".nq"):
             from symboslam.engine.writers.stored_rdf import read_rdf
 
-            return read_rdf(Path(path), suffix)
+            return read_rdf(Path(path))
     except OSError as error:
         raise InputError(f"{path} cannot be read: {error.strerror or error}") from error
     raise InputError(f"{path}: only maps in .geojson, .json, .ttl and .nq can be read back")

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from symboslam.engine.explanation import Explanation, Reason
+from symboslam.engine.writers.rdf_files import read_graph
 from symboslam.engine.writers.stored import StoredMap, in_order
 from symboslam.engine.writers.vocabulary import DCTERMS, PROV, RDF, RDFS, SKOS, SOSA
 from symboslam.errors import InputError
@@ -18,25 +19,13 @@ if TYPE_CHECKING:
     from rdflib.term import Node
 
 
-def read_rdf(path: Path, suffix: str) -> StoredMap:
-    """Read a map.
-
-    Args:
-        path: the file.
-        suffix: ``.ttl`` or ``.nq``.
+def read_rdf(path: Path) -> StoredMap:
+    """Read a map from a Turtle or N-Quads file.
 
     Raises:
-        InputError: it does not parse, or is no environment map.
-        OSError: it cannot be read.
+        InputError: it cannot be read, does not parse, or is no environment map.
     """
-    from rdflib import Dataset, Graph
-
-    data = path.read_bytes()
-    graph: Graph = Graph() if suffix == ".ttl" else Dataset(default_union=True)
-    try:
-        graph.parse(data=data, format="turtle" if suffix == ".ttl" else "nquads")
-    except Exception as error:  # rdflib's parsers raise errors of many unrelated types
-        raise InputError(f"{path} does not parse: {str(error).strip()}") from error
+    graph = read_graph(path)
     try:
         return _Reader(graph, str(path)).stored()
     except ValueError as error:

@@ -33,7 +33,7 @@ def knowledge() -> Knowledge:
             path[i, names.index(environment)] = strength
             reason = f"A {name.lower()} is {environment.lower()}."
             way = (name, environment)
-            indications.append(Indication(name, environment, strength, 0, way, reason, "test"))
+            indications.append(Indication(name, environment, strength, 0, way, reason, "test", is_direct=True))
     return Knowledge(
         environments=environments,
         features=features,

@@ -165,5 +165,5 @@ def test_an_unknown_segment_is_refused_with_close_ones(
     knowledge: Knowledge, landmarks_at: Any
 ) -> None:
     found = classify(landmarks_at([]), knowledge)
-    with pytest.raises(UnknownNameError, match="0-0-0"):
+    with pytest.raises(UnknownNameError, match="close: .-.-."):
         found.explain("0-0")

@@ -44,9 +44,8 @@ def _level(found: Any, depth: int) -> Any:
 
 
 def test_evidence_crosses_borders(knowledge: Knowledge, landmarks_at: Any) -> None:
-    found = classify(
-        landmarks_at([("House", 119, 60)]), knowledge, bandwidth=40, cells=2, absence=0.0
-    )
+    rows = [("House", 119, 60), ("Shop", 20, 20), ("Shop", 25, 220)]
+    found = classify(landmarks_at(rows), knowledge, bandwidth=40, cells=2, absence=0.0)
     east = found.position_of("1-0-1")
     assert found.landmark_count[east] == 0
     assert found.name_of(east) == "Home"
@@ -110,9 +109,34 @@ def test_crowding_share_by_hand() -> None:
 
 
 def test_a_close_stranger_costs_evidence(knowledge: Knowledge, landmarks_at: Any) -> None:
-    alone = classify(landmarks_at([("House", 60, 60)]), knowledge, bandwidth=40, cells=1)
-    mixed = classify(
-        landmarks_at([("House", 60, 60), ("Shop", 65, 60)]), knowledge, bandwidth=40, cells=1
-    )
+    options = {"bandwidth": 40, "cells": 1, "dissimilarity": 0.4, "absence": 0.0}
+    alone = classify(landmarks_at([("House", 60, 60)]), knowledge, **options)
+    mixed = classify(landmarks_at([("House", 60, 60), ("Shop", 65, 60)]), knowledge, **options)
     both = mixed.evidence.of(mixed.evidence_cells)[0]
-    assert both[0] == pytest.approx(alone.evidence.of(alone.evidence_cells)[0][0] / 2, rel=1e-9)
+    assert both[0] == pytest.approx(alone.evidence.of(alone.evidence_cells)[0][0] * 0.6, rel=1e-9)
+
+
+def test_a_wide_site_speaks_farther_and_as_loud(knowledge: Knowledge, landmarks_at: Any) -> None:
+    from dataclasses import replace
+
+    wide = replace(
+        knowledge,
+        features=tuple(
+            replace(f, site=80.0) if f.name == "Shop" else f for f in knowledge.features
+        ),
+    )
+    town = landmarks_at([("Shop", 1500, 1500)], (0, 0, 3000, 3000))
+    options = {"bandwidth": 40, "cells": 1, "absence": 0.0}
+    small, large = (classify(town, k, **options) for k in (knowledge, wide))
+    in_all = [m.evidence.of(m.evidence_cells)[0, 1] for m in (small, large)]
+    assert in_all[1] / in_all[0] == pytest.approx(4, rel=1e-3)  # (80 / 40)^2
+    options["cells"] = 600  # 5 m
+    small, large = (classify(town, k, threshold=1.0, **options) for k in (knowledge, wide))
+    middle = small.evidence.of(_cell(small, 300, 300)), large.evidence.of(_cell(large, 300, 300))
+    assert middle[0][0, 1] == pytest.approx(middle[1][0, 1], rel=1e-2)
+
+
+def _cell(found: Any, row: int, column: int) -> Any:
+    from symboslam.engine.grid import Cells
+
+    return Cells(np.array([3]), np.array([row]), np.array([column]))

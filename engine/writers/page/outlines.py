@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 Integers = NDArray[np.int64]
 NAMED = 60
 """Regions that get their name written on the map, the largest first."""
+JOINED = 60_000
+"""A map of more segments than this is drawn without regions: its borders are a blur anyway."""
 
 
 @dataclass(frozen=True)
@@ -88,6 +90,8 @@ def regions(
     """
     import shapely
 
+    if len(label) > JOINED:
+        return {"rings": [], "names": []}
     rings: list[list[int]] = []
     parts: list[tuple[float, int, Any]] = []
     for k in np.unique(label[label >= 0]):

@@ -278,11 +278,18 @@ function choose(px, py) {
 }
 
 // ---- scale bar ----------------------------------------------------------------------------
-function drawScale() {
+/** A round length that is at most 120 pixels long: [pixels, words]. */
+function scale() {
   const most = 120 / view.k, ten = 10 ** Math.floor(Math.log10(most));
   const metres = [5, 2, 1].map((f) => f * ten).find((m) => m <= most);
-  $("scale-bar").style.width = `${metres * view.k}px`;
-  $("scale-text").textContent = metres >= 1000 ? `${metres / 1000} km` : metres >= 1 ? `${metres} m` : `${+(metres * 100).toPrecision(2)} cm`;
+  const words = metres >= 1000 ? `${metres / 1000} km` : metres >= 1 ? `${metres} m` : `${+(metres * 100).toPrecision(2)} cm`;
+  return [metres * view.k, words];
+}
+
+function drawScale() {
+  const [pixels, words] = scale();
+  $("scale-bar").style.width = `${pixels}px`;
+  $("scale-text").textContent = words;
 }
 
 // ---- everything together ------------------------------------------------------------------
@@ -338,6 +345,7 @@ function listen() {
     theme();
     painter.drawMap();
     painter.markChosen(painter.ctx); // on one sheet: print engines take a second canvas for white
+    painter.markScale(...scale());
   });
   window.addEventListener("afterprint", () => {
     root.classList.remove("printing");

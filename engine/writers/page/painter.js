@@ -339,6 +339,21 @@ class Painter {
     this.markChosen(ctx);
   }
 
+  /** A scale bar in the picture itself, which is scaled when it is printed. */
+  markScale(pixels, words) {
+    const { ctx, view } = this, y = view.height - 14;
+    ctx.fillStyle = css(this.paper);
+    ctx.fillRect(8, y - 26, pixels + 20, 34);
+    ctx.fillStyle = css(this.ink);
+    ctx.fillRect(18, y, pixels, 2);
+    ctx.fillRect(18, y - 5, 1.5, 6);
+    ctx.fillRect(16.5 + pixels, y - 5, 1.5, 6);
+    ctx.font = `13px ${this.font}`;
+    ctx.textAlign = "left";
+    ctx.textBaseline = "alphabetic";
+    ctx.fillText(words, 18, y - 9);
+  }
+
   markChosen(ctx) {
     const { data, state } = this;
     ctx.lineJoin = "round";

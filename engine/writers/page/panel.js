@@ -133,7 +133,7 @@ class Panel {
     const { data } = this, reasons = data.reasons(i);
     const title = el("h3", { text: `Why ${data.envs[k].label}?` });
     if (!reasons) {
-      return el("section", {}, title, el("p", { class: "quiet", text: "A page of this size holds no reasons. The command “symboslam explain” gives them." }));
+      return el("section", {}, title, el("p", { class: "quiet", text: "This page was written without reasons; the command “symboslam explain” gives them." }));
     }
     return el("section", { id: "why" }, title, this.reasonList(i, k, reasons));
   }

@@ -34,6 +34,7 @@ LEAST = 5
 CHUNK = 1024
 _EVERYDAY = {"landmarks", "map", "data", "input", "points"}
 """Names of files that say less than the name of their folder."""
+_STREAMS = {"stdin", "standard input"}
 
 
 def payload(environment_map: EnvironmentMap, reasons: int) -> dict[str, Any]:
@@ -107,7 +108,8 @@ def _title(environment_map: EnvironmentMap) -> str:
     if stem.lower() in _EVERYDAY and folders and folders[-1].strip("."):
         stem = folders[-1]
     words = re.sub(r"[_\s]+", " ", stem).strip()
-    return words[0].upper() + words[1:] if words.strip("-<>") else "Environment map"
+    named = re.match(r"\w", words) and words.lower() not in _STREAMS
+    return words[0].upper() + words[1:] if named else "Environment map"
 
 
 def _facts(environment_map: EnvironmentMap) -> dict[str, str]:

@@ -76,9 +76,6 @@ class HandMadeMap(EnvironmentMap):
         return [self.given.get(i, ())[:limit] for i in segments]
 
 
-Make = Callable[..., HandMadeMap]
-
-
 def make_map(
     frame: Frame | None = None,
     landmarks: Sequence[tuple[Any, ...]] = (),
@@ -184,6 +181,18 @@ VADUZ = Frame.around(9.52, 47.14)
 def town(request: pytest.FixtureRequest) -> HandMadeMap:
     """The full map, in metres and in degrees."""
     return full_map(VADUZ if request.param == "geographic" else None)
+
+
+@pytest.fixture(scope="session", name="make_map")
+def make_map_fixture() -> Callable[..., HandMadeMap]:
+    """``make_map``, for tests that need a map of their own."""
+    return make_map
+
+
+@pytest.fixture(scope="session", name="make_town")
+def make_town_fixture() -> Callable[..., HandMadeMap]:
+    """``full_map``, for tests that change a column."""
+    return full_map
 
 
 @pytest.fixture

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import shapely
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from symboslam.engine._base import Evidence
 from symboslam.engine.environment_map import EnvironmentMap
@@ -179,16 +180,13 @@ def make_map(
     for i in knowledge.indications:
         weight[position[i.feature], place[i.environment]] = i.proximity
     middle = shapely.get_coordinates(shapely.centroid(geometry))
-    width = np.sqrt(shapely.area(geometry).mean()) * 0.8
+    width = np.sqrt(shapely.area(geometry).sum() / max(s, 1)) * 0.8 or 1.0
     crowd = np.zeros((s, len(position)))
     counts = np.zeros((s, len(position)), np.int64)
-    for start in range(0, s, 200):
-        part = slice(start, start + 200)
-        distance = np.linalg.norm(middle[part, None] - xy[None], axis=2) / width
-        near = np.where(distance < 3, np.exp(-(distance**2) / 2), 0.0)
-        for f in np.unique(feature):
-            crowd[part, f] = near[:, feature == f].sum(1)
-            counts[part, f] = (near[:, feature == f] > 0).sum(1)
+    for i, near in enumerate(cKDTree(xy).query_ball_point(middle, 3 * width) if n else []):
+        distance = np.linalg.norm(xy[near] - middle[i], axis=1) / width
+        np.add.at(crowd[i], feature[near], np.exp(-(distance**2) / 2))
+        np.add.at(counts[i], feature[near], 1)
     if knowledge.absence and n:
         crowd[:, position[knowledge.absence[0]]] = ground
     parts = crowd[:, :, None] * weight
