@@ -83,12 +83,10 @@ class EnvironmentMap:
     def reasons(
         self, segments: Sequence[int], limit: int | None = None
     ) -> list[tuple[Reason, ...]]:
-        """Reasons of several segments (positions), the strongest for their label first."""
+        """Reasons of several segments (positions), the largest share of any P first."""
         known = [i for i in segments if self.label[i] >= 0]
         found = {
-            i: reasons_of(
-                parts, self.landmarks, self.knowledge, self.environments, int(self.label[i])
-            )[:limit]
+            i: reasons_of(parts, self.landmarks, self.knowledge, self.environments)[:limit]
             for i, parts in zip(known, self.contributions(known), strict=True)
         }
         return [found.get(i, ()) for i in segments]

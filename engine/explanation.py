@@ -39,7 +39,7 @@ class Explanation:
         segment_id: the segment.
         environment: its environment type, or None if unknown.
         probabilities: environment name -> P(e).
-        reasons: one for each feature class that had a say, strongest for ``environment`` first.
+        reasons: one for each feature class that had a say, the largest share of any P first.
     """
 
     segment_id: str
@@ -64,16 +64,14 @@ def reasons_of(
     landmarks: LandmarkMap,
     knowledge: Knowledge,
     environments: tuple[Environment, ...],
-    winner: int,
 ) -> tuple[Reason, ...]:
-    """A segment's contributions by feature class, as shares of P, the strongest first.
+    """A segment's contributions by feature class, as shares of P, the largest first.
 
     Args:
         contributions: of one segment.
         landmarks: the map that their positions refer to.
         knowledge: names and labels.
         environments: the K environments.
-        winner: index of the segment's environment; reasons are sorted by their part in it.
     """
     total = contributions.total.sum()
     if total <= 0:
@@ -94,8 +92,7 @@ def reasons_of(
             found.append(
                 _reason(knowledge, ground, 0, contributions.ground / total, environments)
             )
-    name = environments[winner].name
-    return tuple(sorted(found, key=lambda r: -abs(r.contribution.get(name, 0.0))))
+    return tuple(sorted(found, key=lambda r: -max(map(abs, r.contribution.values()))))
 
 
 def _reason(

@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from symboslam.engine._base import Contributions, Evidence, normalised
@@ -185,25 +186,25 @@ def dissimilarity(xy: Floats, weight: Floats, radius: float) -> Floats:
     Returns:
         (n, K) in [0, 1]; 0 where x has no neighbours.
     """
-    from scipy.spatial import cKDTree
-
     n, k = weight.shape
     if n < 2:
         return np.zeros((n, k))
-    places, place = np.unique(xy, axis=0, return_inverse=True)
-    place = place.ravel()
+    complex_places, place = np.unique(xy @ (1, 1j), return_inverse=True)
+    places = np.column_stack([complex_places.real, complex_places.imag])
     there = np.zeros((len(places), k))
     np.add.at(there, place, weight)
-    tree = cKDTree(places)
+    points = shapely.points(places)
+    tree = shapely.STRtree(points)
     around = there.copy()
     for start in range(0, len(places), BLOCK):
-        part = np.arange(start, min(start + BLOCK, len(places)))
-        near = cKDTree(places[part]).sparse_distance_matrix(tree, radius, output_type="ndarray")
-        near = near[part[near["i"]] != near["j"]]
-        closeness = 1 - near["v"] / radius
+        part = points[start : start + BLOCK]
+        near, other = tree.query(part, predicate="dwithin", distance=radius)
+        apart = near + start != other
+        near, other = near[apart], other[apart]
+        closeness = 1 - np.hypot(*(places[near + start] - places[other]).T) / radius
         for e in range(k):
-            around[part, e] += np.bincount(
-                near["i"], closeness * there[near["j"], e], minlength=len(part)
+            around[start : start + len(part), e] += np.bincount(
+                near, closeness * there[other, e], minlength=len(part)
             )
     around = np.maximum(around[place] - weight, 0)  # others only
     total = around.sum(1, keepdims=True)

@@ -184,7 +184,7 @@ class _Town:
             ("sports ground", "ParksAndRecreation", "Residential", 6, 0.28, turn + 2.2),
             ("small park", "ParksAndRecreation", "Residential", 1, 0.18, turn + 4.2),
             ("small park", "ParksAndRecreation", "Residential", 1, 0.24, turn + 5.5),
-            ("works", "TransportAndServices", "NonUrban", 2, 0.40, -2.6),
+            ("substation", "TransportAndServices", "NonUrban", 2, 0.40, -2.6),
             ("barracks", "Military", "NonUrban", 4, 0.42, 0.8),
             *(("farm", "NonUrban", "NonUrban", 1, 0.40, 0.3 + 0.9 * k) for k in range(7)),
         ):

@@ -64,7 +64,8 @@ SITES = {
     "small park": "leisure=playground 1, playground=swing 1, playground=slide 1",
     "station": "railway=station+building=train_station 1, public_transport=platform 4, "
     "railway=stop 4, amenity=taxi 1, amenity=bicycle_parking 2",
-    "works": "man_made=storage_tank 4, building=service 3, power=transformer 3",
+    "substation": "power=substation 1, power=transformer 5, building=transformer_tower 1, "
+    "building=service 2",
     "barracks": "building=barracks 8, military=checkpoint 1, man_made=flagpole 2",
     "farm": "building=farm 1, building=barn 2, building=shed 1, building=farm_auxiliary 2, "
     "man_made=silo 1",

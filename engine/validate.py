@@ -32,7 +32,8 @@ class Violation:
     path: str = ""
 
     def __str__(self) -> str:
-        return f"{self.node}: {self.message}" + (f" Found: {self.value}" if self.value else "")
+        found = f" Found: {self.value}" if self.value not in ("", self.node) else ""
+        return f"{self.node}: {self.message}{found}"
 
 
 @dataclass(frozen=True)

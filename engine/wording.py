@@ -43,11 +43,11 @@ def tell(explanation: Explanation, why: Why, *, against: str | None = None, limi
 def _told(explanation: Explanation, environment: str, why: Why, limit: int) -> list[str]:
     """A line for each of the strongest reasons for one environment, and one for the rest."""
     reasons = explanation.speaking_for(environment)
-    named = [r for r in reasons if r.contribution[environment] >= LEAST][:limit]
+    named = [r for r in reasons if r.feature and r.contribution[environment] >= LEAST][:limit]
     lines = [_line(r, environment, why) for r in named]
     rest = sum(r.contribution[environment] for r in reasons if r not in named)
-    if len(reasons) > len(named) and abs(rest) >= LEAST:
-        lines.append(f"  {rest:+.2f}  {len(reasons) - len(named)} further kinds of landmarks")
+    if abs(rest) >= LEAST:
+        lines.append(f"  {rest:+.2f}  other kinds of landmarks")
     return lines
 
 

@@ -55,10 +55,10 @@ class Reasoner(ABC):
         """
 
     @abstractmethod
-    def first_clash(
+    def clashes(
         self, candidates: Iterable[Iterable[Triple]], unsatisfiable: str | None = None
-    ) -> int | None:
-        """The position of the first ontology that clashes, or None if none does.
+    ) -> list[bool]:
+        """Which ontologies clash, in their order; the answers may end with the first that does.
 
         Args:
             candidates: several ontologies.

@@ -66,6 +66,22 @@ class Report:
         """Whether nothing was found."""
         return not self.findings
 
+    def __str__(self) -> str:
+        lines = [
+            self.source,
+            f"{self.classes} classes, {self.environments} environments, {self.features} features, "
+            f"{self.indications} stated indications, {self.ways} feature-environment pairs",
+        ]
+        if self.clash:
+            lines += ["these axioms clash:", *(f"  {axiom}" for axiom in self.clash)]
+        else:
+            lines.append("consistent, and every class can have members")
+        lines.append(
+            f"{len(self.findings) or 'no'} finding{'' if len(self.findings) == 1 else 's'}"
+        )
+        lines += (f"  {f.kind}: {f.subject}: {f.message}" for f in self.findings)
+        return "\n".join(lines)
+
 
 def check_ontology(paths: Sequence[str | Path] | str | Path | None = None) -> Report:
     """Reason over an ontology and look for gaps; nothing is cached.
@@ -111,7 +127,9 @@ def check_ontology(paths: Sequence[str | Path] | str | Path | None = None) -> Re
     except EmptyOntologyError as error:
         found.append(Finding("empty", source, str(error)))
         return replace(counts, environments=len(classes.environments), findings=tuple(found))
-    except OntologyError:  # a strength, which is among the findings already
+    except OntologyError as error:
+        if not any(finding.kind == "bad-strength" for finding in found):
+            found.append(Finding("bad-value", source, str(error)))
         return replace(counts, findings=tuple(found))
     found += [*_in_table(knowledge), *_disagreements(classes, knowledge, read)]
     return replace(

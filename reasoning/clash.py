@@ -1,14 +1,17 @@
 """Why an ontology clashes: a small set of axioms that contradict each other, in words.
 
-Black-box contraction: take the module of axioms that can have a say, then leave out halves,
-quarters, ... single axioms as long as the clash stays. What is left is minimal: without any one of
-its axioms there is no clash (or the time was over, then it is merely small).
+Black-box contraction: take the module of axioms that can have a say, then leave out from its front
+as many as the clash survives; the next one is needed; go on behind it. What is left is minimal:
+without any one of its axioms there is no clash (or the time was over, then it is merely small).
+Questions are asked many at a time, since starting Java costs more than answering.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from time import monotonic
+
+from rdflib import RDF, RDFS, URIRef
 
 from symboslam.errors import InconsistentOntologyError
 from symboslam.reasoning._base import Hierarchy, Reasoner
@@ -17,6 +20,7 @@ from symboslam.reasoning.locality import module
 from symboslam.reasoning.vocabulary import local_name
 
 _SECONDS = 40.0
+_WIDTH = 64  # questions at a time
 _NAMED = 8  # classes that the message names
 
 
@@ -71,25 +75,40 @@ def explain(
     end = monotonic() + seconds
     declared = list(declared)
 
-    def first_clash(candidates: Sequence[Sequence[Axiom]]) -> int | None:
+    def ask(candidates: Sequence[Sequence[Axiom]]) -> list[bool]:
         ontologies = [[*declared, *(t for a in c for t in a.triples)] for c in candidates]
-        return reasoner.first_clash(ontologies, unsatisfiable)
+        return reasoner.clashes(ontologies, unsatisfiable)
 
-    left = module(axioms, [unsatisfiable] if unsatisfiable else [])
-    if first_clash([left]) is None:
-        left = list(axioms)
-    size = (len(left) + 1) // 2
-    while size:
-        start = 0
-        while start < len(left) and monotonic() < end:
-            starts = range(start, len(left), size)
-            candidates = [left[:i] + left[i + size :] for i in starts]
-            hit = first_clash(candidates)
-            if hit is None:
-                break
-            start, left = starts[hit], candidates[hit]
-        size = size // 2
-    return left
+    # What is left out first is least missed: plain statements about classes explain best.
+    left = sorted(module(axioms, [unsatisfiable] if unsatisfiable else []), key=_is_plain)
+    fewer = [[a for a in left if a is not without] for without in left[: _WIDTH + 1]]
+    answers = ask([*(fewer if len(fewer) <= _WIDTH else ()), left])
+    if True not in answers:  # cannot be, unless the module lacks something
+        left, answers = sorted(axioms, key=_is_plain), []
+    # What no explanation can do without, as far as the answers go.
+    needed = [a for a, clashes in zip(left, answers, strict=False) if not clashes]
+    rest = [a for a in left if a not in needed]
+    while rest:
+        # rest[low:] with what is needed clashes, rest[high:] with it does not.
+        low, high = 0, len(rest) + 1
+        while high - low > 1:
+            if monotonic() > end:
+                return [*needed, *rest[low:]]
+            step = -(-(high - low) // _WIDTH)
+            starts = range(high - step, low, -step)
+            answers = ask([[*needed, *rest[start:]] for start in starts])
+            if True in answers:
+                hit = answers.index(True)
+                low, high = starts[hit], starts[hit - 1] if hit else high
+            else:
+                high = starts[-1]
+        needed += rest[low : low + 1]  # nothing if what is needed clashes by itself
+        rest = rest[low + 1 :] if low < len(rest) else []
+    return needed
+
+
+def _is_plain(axiom: Axiom) -> bool:
+    return isinstance(axiom.object, URIRef) and axiom.predicate in (RDFS.subClassOf, RDF.type)
 
 
 def _root(unsatisfiable: Iterable[str], axioms: Sequence[Axiom]) -> str:

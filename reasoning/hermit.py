@@ -103,22 +103,20 @@ class Hermit(Reasoner):
                 equals.update(dict.fromkeys(classes, frozenset(classes)))
         return Hierarchy({c: frozenset(p) for c, p in parents.items()}, equals, unsatisfiable)
 
-    def first_clash(
+    def clashes(
         self, candidates: Iterable[Iterable[Triple]], unsatisfiable: str | None = None
-    ) -> int | None:
-        """See :meth:`Reasoner.first_clash`.
+    ) -> list[bool]:
+        """See :meth:`Reasoner.clashes`.
 
-        All ontologies are checked in one start of Java. HermiT ends at the first inconsistent one,
-        so the answers before it are counted.
+        All ontologies are checked in one start of Java, which ends at the first inconsistent one.
         """
         code, output = self._run(candidates, f"-k<{unsatisfiable}>" if unsatisfiable else "-k")
         answers = re.findall(r"is (not )?satisfiable\.$", output, re.MULTILINE)
-        if "not " in answers:
-            return answers.index("not ")
+        found = [answer == "not " for answer in answers]
         if code and "InconsistentOntologyException" in output:
-            return len(answers)
+            return [*found, True]
         self._check(code, output)
-        return None
+        return found
 
     def _run(self, ontologies: Iterable[Iterable[Triple]], action: str) -> tuple[int, str]:
         """Exit code and output of one run over several ontologies."""

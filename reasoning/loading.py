@@ -25,7 +25,7 @@ def load(paths: Sequence[Path] | None, cache: bool) -> Knowledge:
         return _load_bundled(cache)
     if not paths:
         raise EmptyOntologyError("no ontology file is given")
-    return _load_files(paths, cache)
+    return _load_files(list(paths), cache)
 
 
 def build_bundled() -> tuple[Knowledge, dict[str, str]]:
@@ -81,20 +81,26 @@ def _load_bundled(cache: bool) -> Knowledge:
     return knowledge
 
 
-def _load_files(paths: Sequence[Path], cache: bool) -> Knowledge:
-    from symboslam.reasoning.extract import extract
-
+def _load_files(paths: list[Path], cache: bool) -> Knowledge:
     source = ", ".join(str(path) for path in paths)
     bundled = files.bundled_hash()
     given = {f"{i} {p.name}": files.digest(files.read_bytes(p)) for i, p in enumerate(paths)}
     key = f"{files.combined_digest({**given, 'bundled': bundled})[:40]}-{store.FORMAT}"
     kept = store.read_cache(key, source) if cache else None
-    if kept and files.unchanged(kept[1], paths[0]):
-        return kept[0]
+    if kept and files.unchanged(kept[1], paths):
+        return _with_notes(*kept)
+    from symboslam.reasoning.extract import extract
+
     read = files.read_files(paths)
-    hashed = files.combined_digest({**read.files, "bundled": bundled})
-    notes = tuple(f"the import <{iri}> was not found beside {source}" for iri in read.missing)
-    knowledge = replace(extract(reason(read)), source=source, source_hash=hashed, notes=notes)
-    if cache and not read.missing:
-        store.write_cache(key, knowledge, read.files)
-    return knowledge
+    hashed = files.combined_digest({**read.digests, "bundled": bundled})
+    knowledge = replace(extract(reason(read)), source=source, source_hash=hashed)
+    if cache:
+        store.write_cache(key, knowledge, read.digests)
+    return _with_notes(knowledge, read.digests)
+
+
+def _with_notes(knowledge: Knowledge, digests: dict[str, str]) -> Knowledge:
+    """Knowledge that says which imports are missing."""
+    missing = sorted(name for name, value in digests.items() if value == files.MISSING)
+    notes = (f"the import <{i}> was not found beside {knowledge.source}" for i in missing)
+    return replace(knowledge, notes=tuple(notes))

@@ -8,7 +8,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from symboslam.errors import InputError
+from symboslam.errors import InputError, OntologySyntaxError
 from symboslam.reasoning.vocabulary import DOCUMENTS, local_name
 
 if TYPE_CHECKING:
@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from rdflib import Graph
 
 _BUNDLED_ALIGNMENTS = ("symboslam-2022.ttl",)  # old names; the others say nothing about features
+MISSING = "missing"
+"""Stands in a list of digests for an import that was not found."""
+
 _LARGEST_NEIGHBOUR = 20_000_000  # bytes; a larger file beside an ontology is not looked into
 
 
@@ -33,6 +36,11 @@ class Sources:
     graph: Graph
     files: dict[str, str] = field(default_factory=dict)
     missing: tuple[str, ...] = ()
+
+    @property
+    def digests(self) -> dict[str, str]:
+        """``files``, and the missing imports marked as such."""
+        return {**self.files, **dict.fromkeys(self.missing, MISSING)}
 
 
 def bundled_files() -> dict[str, Traversable]:
@@ -101,7 +109,7 @@ def read_files(paths: Iterable[Path]) -> Sources:
         InputError: a file cannot be read.
         OntologySyntaxError: a file does not parse.
     """
-    from rdflib import OWL, Graph
+    from rdflib import OWL, RDF, Graph
 
     from symboslam.reasoning.parsing import parse
 
@@ -133,7 +141,8 @@ def read_files(paths: Iterable[Path]) -> Sources:
                 waiting.append(neighbour)
             else:
                 missing.append(target)
-    return Sources(graph, digests, tuple(sorted(set(missing))))
+    present = {*graph.subjects(RDF.type, OWL.Ontology), *graph.objects(None, OWL.versionIRI)}
+    return Sources(graph, digests, tuple(sorted(set(missing) - {str(iri) for iri in present})))
 
 
 def _relative(path: Path, given: list[Path]) -> str:
@@ -145,33 +154,43 @@ def _relative(path: Path, given: list[Path]) -> str:
 
 def _find_beside(path: Path, iri: str) -> Path | None:
     """The file beside ``path`` that holds the ontology ``iri``."""
+    from symboslam.reasoning.parsing import EXTENSIONS
+
+    try:
+        beside = sorted(p for p in path.parent.iterdir() if p.suffix.lower() in (*EXTENSIONS, ""))
+        names = [local_name(iri) + extension for extension in ("", *EXTENSIONS)]
+        found = [p for name in names for p in beside if p.name == name and p.is_file()]
+        return next(iter(found), None) or next((p for p in beside if _holds(p, iri)), None)
+    except OSError:
+        return None
+
+
+def _holds(path: Path, iri: str) -> bool:
+    """Whether a file declares the ontology, or the version of one, that is called ``iri``."""
+    if not path.is_file() or path.stat().st_size > _LARGEST_NEIGHBOUR:
+        return False
+    data = path.read_bytes()
+    if iri.encode() not in data:
+        return False
     from rdflib import OWL, RDF, URIRef
 
-    from symboslam.errors import OntologySyntaxError
-    from symboslam.reasoning.parsing import EXTENSIONS, parse
+    from symboslam.reasoning.parsing import parse
 
-    stem = local_name(iri)
-    for name in (stem, *(stem + extension for extension in EXTENSIONS)):
-        if name and (path.parent / name).is_file():
-            return path.parent / name
-    for other in sorted(path.parent.iterdir()):
-        if other.suffix.lower() not in EXTENSIONS or not other.is_file() or other == path:
-            continue
-        if other.stat().st_size > _LARGEST_NEIGHBOUR or iri.encode() not in other.read_bytes():
-            continue
-        try:
-            if (URIRef(iri), RDF.type, OWL.Ontology) in parse(other.name, other.read_bytes()):
-                return other
-        except OntologySyntaxError:
-            continue
-    return None
+    try:
+        graph, name = parse(path.name, data), URIRef(iri)
+    except OntologySyntaxError:
+        return False
+    return (name, RDF.type, OWL.Ontology) in graph or (None, OWL.versionIRI, name) in graph
 
 
-def unchanged(digests: dict[str, str], first: Path) -> bool:
-    """Whether all files in a list of digests, relative to the first given, are unchanged."""
+def unchanged(digests: dict[str, str], given: list[Path]) -> bool:
+    """Whether a list of digests still holds: equal files, and what was missing still is."""
+    folder = given[0].resolve().parent
     try:
         return all(
-            digest((first.resolve().parent / name).read_bytes()) == value
+            all(_find_beside(path, name) is None for path in given)
+            if value == MISSING
+            else digest((folder / name).read_bytes()) == value
             for name, value in digests.items()
         )
     except OSError:

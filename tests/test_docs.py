@@ -11,9 +11,12 @@ import pytest
 from symboslam.engine.sample import sample_area
 
 ROOT = Path(__file__).parents[1]
-FOLDERS = (".", "bench", "competency_questions", "docs", "docs/decisions", "engine", "ontology",
-           "pitfall_reports", "reasoning", "service", "sim_bridge")  # fmt: skip
-PAGES = sorted(page for folder in FOLDERS for page in (ROOT / folder).glob("*.md"))
+FOLDERS = (".", "bench", "competency_questions", "docs", "docs/decisions", "engine", "examples",
+           "ontology", "pitfall_reports", "reasoning", "service", "sim_bridge")  # fmt: skip
+PAGES = sorted(
+    [page for folder in FOLDERS for page in (ROOT / folder).glob("*.md")]
+    + list((ROOT / "examples").glob("*/*.md"))
+)
 NAMES = [str(page.relative_to(ROOT)) for page in PAGES]
 BLOCK = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)

@@ -186,13 +186,12 @@ def area_of(
             raise GeometryError(f"{source}: the bounding box {box} has no area")
         bbox = bbox[0] - _PAD, bbox[1] - _PAD, bbox[2] + _PAD, bbox[3] + _PAD
         notes = (f"the landmarks span no area: {_PAD:g} m around them were taken",)
-        ring_x, ring_y = outline(bbox)
     if system.metric and max(width, height) < 1 and not notes:
         notes = ("the whole area is less than 1 m wide: are the coordinates degrees?",)
     if surveyed is not None:
         return Area(frame, bbox, _to_metres(surveyed, box, system, frame, source), notes)
     covered = abs(np.dot(ring_x, np.roll(ring_y, -1)) - np.dot(ring_y, np.roll(ring_x, -1))) / 2
-    if covered < (1 - _SLIVER) * (bbox[2] - bbox[0]) * (bbox[3] - bbox[1]):
+    if frame.geographic and covered < (1 - _SLIVER) * width * height and not notes:
         from shapely import Polygon
 
         return Area(frame, bbox, Polygon(np.column_stack([ring_x, ring_y])), notes)

@@ -1,8 +1,8 @@
 """HTML: an environment map as one page that needs no network, no server and no other file.
 
 The page is a template with style, scripts and data written into it. What comes from the input is
-never markup: the data are JSON in which no ``<``, ``>`` or ``&`` occurs, the scripts show it as text
-only, and a content security policy forbids every other script and every request.
+never markup: the data are JSON in which no ``<``, ``>`` or ``&`` occurs, the scripts show it as
+text only, and a content security policy forbids every other script and every request.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from importlib.resources import files
 from typing import Any, BinaryIO
 
 from symboslam.engine.environment_map import EnvironmentMap
-from symboslam.engine.writers.options import WriteOptions
+from symboslam.engine.writers.options import REASONS, WriteOptions
 from symboslam.engine.writers.page.payload import payload
 
 _SCRIPTS = ("data.js", "view.js", "painter.js", "panel.js", "search.js", "page.js")
@@ -32,11 +32,11 @@ def write(environment_map: EnvironmentMap, stream: BinaryIO, options: WriteOptio
         options: ``reasons`` and ``progress`` mean something here.
     """
     options.tell("drawing the page", 0.0)
-    stream.write(render_html(environment_map, reasons=options.reasons or 0).encode())
+    stream.write(render_html(environment_map, reasons=options.reasons).encode())
     options.tell("drawing the page", 1.0)
 
 
-def render_html(environment_map: EnvironmentMap, *, reasons: int = 5) -> str:
+def render_html(environment_map: EnvironmentMap, *, reasons: int = REASONS) -> str:
     """The whole page.
 
     Args:

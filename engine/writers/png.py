@@ -144,7 +144,7 @@ def path_of(geometry: Any) -> Path:
     from matplotlib.path import Path
 
     parts = []
-    for ring in shapely.get_rings(shapely.get_parts(geometry)):
+    for ring in shapely.get_rings(shapely.get_parts(shapely.orient_polygons(geometry))):
         corners = shapely.get_coordinates(ring)
         codes = np.full(len(corners), Path.LINETO, np.uint8)
         codes[0], codes[-1] = Path.MOVETO, Path.CLOSEPOLY

@@ -46,7 +46,7 @@ class Dots:
 
     label: str
     count: int
-    features: NDArray[np.int64]
+    features: NDArray[np.int32]
     colour: str
     marker: str
     size: float = 1.0
@@ -56,9 +56,9 @@ def dot_classes(m: EnvironmentMap) -> list[Dots]:
     """The most frequent classes of landmarks, and the others as one."""
     features, counts = np.unique(m.landmarks.feature, return_counts=True)
     order = np.argsort(-counts, kind="stable")
-    features, counts = features[order].astype(np.int64), counts[order]
+    features, counts = features[order], counts[order]
     found = [
-        Dots(m.knowledge.features[f].label, int(n), np.array([f]), colour, marker)
+        Dots(m.knowledge.features[f].label, int(n), np.array([f], np.int32), colour, marker)
         for f, n, (colour, marker) in zip(features, counts, DOTS, strict=False)
     ]
     rest = features[len(DOTS) :]

@@ -9,7 +9,7 @@ from typing import TypeAlias
 import numpy as np
 import shapely
 
-from symboslam.engine.writers.content import MILLION, OTHER, Content, Part
+from symboslam.engine.writers.content import OTHER, Content, Part
 from symboslam.engine.writers.options import WriteOptions
 from symboslam.engine.writers.rdf_syntax import Properties, Syntax
 from symboslam.engine.writers.vocabulary import (
@@ -129,7 +129,7 @@ class Records:
         s, written = self.syntax, 0
         for block in self.content.blocks():
             outlines = shapely.to_wkt(block.geometry, rounding_precision=self.content.decimals)
-            rows = (block.probability / MILLION).tolist()
+            rows = block.probability.tolist()
             for i, name in enumerate(block.segment_id):
                 segment, label = s.own("segment", name), block.environment[i]
                 found: Properties = [
@@ -149,13 +149,11 @@ class Records:
             written += len(block.segment_id)
             options.tell("writing RDF", written / len(self.map))
 
-    def _classification(
-        self, name: str, segment: str, row: list[float], parts: list[Part]
-    ) -> Record:
+    def _classification(self, name: str, segment: str, row: list[int], parts: list[Part]) -> Record:
         s = self.syntax
         kind, probability = self.a(SL + "EnvironmentProbability"), s.iri(SL + "probability")
         distribution: list[str | Properties] = [
-            [kind, self._of_environment[e], (probability, [s.decimal(f"{p:.6f}")])]
+            [kind, self._of_environment[e], (probability, [s.decimal(fraction(p))])]
             for e, p in zip(self.content.environment_names, row, strict=True)
         ]
         found: Properties = [
@@ -193,7 +191,7 @@ class Records:
                 kind,
                 what,
                 self._of_environment[name],
-                (share, [s.decimal(f"{n / MILLION:.6f}")]),
+                (share, [s.decimal(fraction(n))]),
                 count,
             ]
 
@@ -201,3 +199,13 @@ class Records:
 def digits(value: float) -> str:
     """All digits of a number, without an exponent: what xsd:decimal can hold."""
     return np.format_float_positional(value, trim="0")
+
+
+def fraction(millionths: int) -> str:
+    """A number of millionths as a decimal number, without trailing zeros but the first.
+
+    >>> fraction(250_000), fraction(-1), fraction(1_000_000)
+    ('0.25', '-0.000001', '1.0')
+    """
+    short = f"{millionths / 1e6:.6f}".rstrip("0")
+    return short + "0" if short.endswith(".") else short

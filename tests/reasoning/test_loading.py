@@ -104,6 +104,30 @@ def test_change_of_an_import_is_noticed(
         Knowledge.load(main)
 
 
+def test_missing_imports_are_noted(
+    hermit: None, tmp_path: Path, town_file: Path, reasoned: list[str]
+) -> None:
+    town_file.write_text(
+        town_file.read_text().replace(
+            "<https://w3id.org/symboslam/core>", "<https://example.org/extra#>"
+        )
+    )
+    for _ in range(2):
+        knowledge = Knowledge.load(town_file)
+        assert knowledge.notes == (
+            f"the import <https://example.org/extra#> was not found beside {town_file}",
+        )
+    assert len(reasoned) == 1
+    (tmp_path / "any.ttl").write_text(
+        "<https://example.org/extra#> a <http://www.w3.org/2002/07/owl#Ontology> .\n"
+        "<https://example.org/town#Tower> <https://w3id.org/symboslam#detectorLabel> 'spire' ."
+    )
+    knowledge = Knowledge.load(town_file)
+    assert knowledge.notes == ()
+    assert knowledge.index_of("spire") is not None
+    assert len(reasoned) == 2
+
+
 @pytest.mark.parametrize(
     "damage",
     [

@@ -39,7 +39,8 @@ class Quantiser:
 
     def points(self, xy: NDArray[np.float64]) -> Integers:
         """(n, 2) metres -> (n, 2) integers."""
-        return np.rint((xy - np.array(self.origin)) / self.unit).astype(np.int64)
+        steps: Integers = np.rint((xy - np.array(self.origin)) / self.unit).astype(np.int64)
+        return steps
 
     def boxes(self, geometry: NDArray[Any]) -> Integers:
         """(s, 4) west, south, width, height of each polygon; neighbours stay neighbours."""

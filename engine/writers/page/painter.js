@@ -8,6 +8,11 @@ const OTHER_CLASS = "#8d9299";
 const rgb = (hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
 const css = (c) => `rgb(${c.map(Math.round).join(",")})`;
 const mix = (a, b, t) => a.map((v, i) => v + (b[i] - v) * t);
+/** A colour made neither too bright nor too dark to stand out from its ground. */
+const toned = (c, least, most) => {
+  const light = Math.max(0.3 * c[0] + 0.59 * c[1] + 0.11 * c[2], 1);
+  return c.map((v) => v * (Math.max(least, Math.min(most, light)) / light));
+};
 
 class Painter {
   /**
@@ -58,8 +63,8 @@ class Painter {
 
   /** Colour of an environment at a certainty in [0, 1]: the paler, the less certain. */
   shade(k, certainty) {
-    const [least, more] = this.dark ? [0.2, 0.5] : [0.3, 0.65];
-    return css(mix(this.paper, rgb(this.data.envs[k].colour), least + more * certainty));
+    const full = rgb(this.data.envs[k].colour);
+    return css(this.dark ? mix(this.paper, toned(full, 95, 165), 0.2 + 0.55 * certainty) : mix(this.paper, full, 0.3 + 0.65 * certainty));
   }
 
   /** Colour of a value in [0, 1] in the modes that show one number. */
@@ -96,7 +101,9 @@ class Painter {
     const { data, state } = this;
     if (state.dots === "class") return CLASS_COLOURS[data.classes.indexOf(f)] || OTHER_CLASS;
     const k = data.foremost(f);
-    return k < 0 ? OTHER_CLASS : css(mix(rgb(data.envs[k].colour), this.dark ? [255, 255, 255] : [15, 20, 30], 0.32));
+    if (k < 0) return OTHER_CLASS;
+    const full = rgb(data.envs[k].colour);
+    return css(this.dark ? mix(full, [255, 255, 255], 0.32) : mix(toned(full, 0, 185), [15, 20, 30], 0.32));
   }
 
   /** Landmarks by colour, the most frequent class first, so that rare ones lie on top. */

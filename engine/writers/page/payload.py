@@ -8,7 +8,6 @@ and ``features``. docs/decisions tells why the page looks like this.
 from __future__ import annotations
 
 import re
-from collections import defaultdict
 from collections.abc import Sequence
 from typing import Any
 
@@ -18,9 +17,8 @@ from numpy.typing import NDArray
 from symboslam.engine.environment_map import EnvironmentMap
 from symboslam.engine.explanation import Reason
 from symboslam.engine.frame import Frame
+from symboslam.engine.writers.page.features import Features
 from symboslam.engine.writers.page.outlines import Quantiser, regions
-from symboslam.engine.writers.page.words import local_name, plural
-from symboslam.reasoning.knowledge import Indication
 
 Floats = NDArray[np.float64]
 PARTS = 10_000
@@ -51,7 +49,7 @@ def payload(environment_map: EnvironmentMap, reasons: int) -> dict[str, Any]:
     landmarks = environment_map.landmarks
     bounds = _bounds(environment_map)
     quantiser = Quantiser.for_bounds(bounds)
-    features = _Features(environment_map)
+    features = Features(environment_map)
     segments = _segments(environment_map, quantiser)
     segments["reasons"] = _reasons(environment_map, features, reasons)
     drawn = len(landmarks) <= DOTS
@@ -173,55 +171,6 @@ def _inverse(frame: Frame, bounds: tuple[float, float, float, float]) -> dict[st
     }
 
 
-class _Features:
-    """The features that occur, numbered in the order in which they are first asked for."""
-
-    def __init__(self, environment_map: EnvironmentMap) -> None:
-        self.rows: list[dict[str, Any]] = []
-        self._knowledge = environment_map.knowledge
-        self._number: dict[str, int] = {}
-        self._feature = {f.name: f for f in self._knowledge.features}
-        self._env = {e.name: k for k, e in enumerate(environment_map.environments)}
-        self._indications: dict[str, list[Indication]] = defaultdict(list)
-        for indication in self._knowledge.indications:
-            if indication.environment in self._env:
-                self._indications[indication.feature].append(indication)
-
-    def number(self, name: str, label: str = "") -> int:
-        """The number of a feature; one that the knowledge does not have gets a bare row."""
-        if name not in self._number:
-            self._number[name] = len(self.rows)
-            feature = self._feature.get(name)
-            label = feature.label if feature and feature.label else label or name
-            self.rows.append(
-                {
-                    "name": name,
-                    "label": label,
-                    "plural": plural(label),
-                    "definition": feature.definition if feature else "",
-                    "static": feature.static if feature else True,
-                    "absence": name in self._knowledge.absence,
-                    "indicates": self._said(name),
-                }
-            )
-        return self._number[name]
-
-    def _said(self, name: str) -> list[list[Any]]:
-        """[environment, strength, steps, way in words, reason, source], the closest first."""
-        labels = self._knowledge.labels
-        return [
-            [
-                self._env[i.environment],
-                round(i.strength, 4),
-                i.steps,
-                [labels.get(step, step) for step in i.path],
-                i.reason,
-                labels.get(i.source) or local_name(i.source),
-            ]
-            for i in sorted(self._indications[name], key=lambda i: -i.proximity)
-        ]
-
-
 def _segments(environment_map: EnvironmentMap, quantiser: Quantiser) -> dict[str, Any]:
     """The segments column by column; ``rings`` holds those that are not upright rectangles."""
     import shapely
@@ -245,9 +194,7 @@ def _segments(environment_map: EnvironmentMap, quantiser: Quantiser) -> dict[str
     }
 
 
-def _reasons(
-    environment_map: EnvironmentMap, features: _Features, most: int
-) -> list[Any] | None:
+def _reasons(environment_map: EnvironmentMap, features: Features, most: int) -> list[Any] | None:
     """For each segment [feature, count, environment, share, environment, share ...], or None."""
     total = len(environment_map)
     limit = min(most, REASONS // max(total, 1))
@@ -272,7 +219,7 @@ def _strongest(reasons: Sequence[Reason], limit: int) -> list[Reason]:
     return [reasons[i] for i in sorted(taken)]
 
 
-def _reason(reason: Reason, env: dict[str, int], features: _Features) -> list[int]:
+def _reason(reason: Reason, env: dict[str, int], features: Features) -> list[int]:
     row = [features.number(reason.feature, reason.label), int(reason.count)]
     for name, share in reason.contribution.items():
         parts = round(share * PARTS)
@@ -282,7 +229,7 @@ def _reason(reason: Reason, env: dict[str, int], features: _Features) -> list[in
 
 
 def _landmarks(
-    environment_map: EnvironmentMap, quantiser: Quantiser, features: _Features
+    environment_map: EnvironmentMap, quantiser: Quantiser, features: Features
 ) -> dict[str, Any]:
     """The landmarks column by column; ``segment`` is -1 where none holds the landmark."""
     landmarks = environment_map.landmarks

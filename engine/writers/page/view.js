@@ -18,6 +18,7 @@ class View {
     this.k = 1; // pixels per metre
     this.width = this.height = 1;
     this.flight = 0;
+    this.aim = null; // where a flight under way ends
   }
 
   get fitted() {
@@ -69,8 +70,9 @@ class View {
 
   /** Goes there in a fifth of a second. */
   fly(x, y, k) {
-    cancelAnimationFrame(this.flight);
+    this.stop();
     if (CALM.matches) return this.set(x, y, k, false);
+    this.aim = [x, y, k];
     const from = [this.x, this.y, Math.log(this.k)], to = [x, y, Math.log(k)];
     const start = performance.now();
     const step = (now) => {
@@ -78,21 +80,31 @@ class View {
       const at = from.map((v, i) => v + (to[i] - v) * e);
       this.set(at[0], at[1], Math.exp(at[2]), t < 1);
       if (t < 1) this.flight = requestAnimationFrame(step);
+      else this.aim = null;
     };
     this.flight = requestAnimationFrame(step);
   }
 
-  /** Zooms so that the place under a pixel stays there. */
+  stop() {
+    cancelAnimationFrame(this.flight);
+    this.aim = null;
+  }
+
+  /** Zooms so that the place under a pixel stays there; during a flight, from where that ends. */
   zoom(factor, px = this.width / 2, py = this.height / 2, smooth = false) {
-    const k = Math.max(this.fitted * 0.4, Math.min(this.fitted * 600, this.k * factor));
-    const [x, y] = this.place(px, py);
-    const to = [x - (px - this.width / 2) / k, y + (py - this.height / 2) / k, k];
+    const [x, y, from] = (smooth && this.aim) || [this.x, this.y, this.k];
+    const k = Math.max(this.fitted * 0.4, Math.min(this.fitted * 600, from * factor));
+    const right = px - this.width / 2, up = this.height / 2 - py;
+    const to = [x + right / from - right / k, y + up / from - up / k, k];
     if (smooth) this.fly(...to);
-    else this.set(...to);
+    else {
+      this.stop();
+      this.set(...to);
+    }
   }
 
   pan(dx, dy) {
-    cancelAnimationFrame(this.flight);
+    this.stop();
     this.set(this.x - dx / this.k, this.y + dy / this.k, this.k);
   }
 

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import re
 
-_SAME = {"sheep", "cattle", "aircraft", "parking", "housing", "fish", "deer", "ground", "land"}
+_SAME = frozenset(
+    "aircraft calming cattle deer equipment fish food gear ground housing information land parking "
+    "police sheep tennis water".split()
+)
 _ODD = {"person": "people", "man": "men", "woman": "women", "child": "children", "mouse": "mice"}
 
 
@@ -13,24 +16,31 @@ def plural(label: str) -> str:
 
     >>> plural("House"), plural("Bus stop"), plural("Person"), plural("Sheep"), plural("C17")
     ('houses', 'bus stops', 'people', 'sheep', 'C17s')
-    >>> plural("Factory"), plural("Bench"), plural("Soccer goals"), plural("Piece of artwork")
-    ('factories', 'benches', 'soccer goals', 'pieces of artwork')
+    >>> plural("Factory"), plural("Bench"), plural("Soccer goals"), plural("Work of art")
+    ('factories', 'benches', 'soccer goals', 'works of art')
+    >>> plural("Cliff, cave or sinkhole"), plural("Book or music shop")
+    ('cliffs, caves or sinkholes', 'book or music shops')
     """
-    text = running(label)
-    head, joint, tail = text.partition(" of ")
-    first, space, noun = head.rpartition(" ")
+    head, *tail = re.split(r"(?= (?:of|in|for|with) )", running(label), maxsplit=1)
+    parts = re.split(r"(, | or )", head)
+    alternatives = all(" " not in part for part in parts[2::2])  # else they share the last noun
+    for i in range(0 if alternatives else len(parts) - 1, len(parts), 2):
+        first, space, noun = parts[i].rpartition(" ")
+        parts[i] = first + space + _many(noun)
+    return "".join(parts + tail)
+
+
+def _many(noun: str) -> str:
     lower = noun.lower()
     if lower in _SAME or re.search(r"[^saui]s$", lower):  # "goals", "works": many already
-        many = noun
-    elif lower in _ODD:
-        many = _ODD[lower]
-    elif lower.endswith(("s", "x", "z", "ch", "sh")):
-        many = noun + "es"
-    elif re.search(r"[^aeiou]y$", lower):
-        many = noun[:-1] + "ies"
-    else:
-        many = noun + "s"
-    return first + space + many + joint + tail
+        return noun
+    if lower in _ODD:
+        return _ODD[lower]
+    if lower.endswith(("s", "x", "z", "ch", "sh")):
+        return noun + "es"
+    if re.search(r"[^aeiou]y$", lower):
+        return noun[:-1] + "ies"
+    return noun + "s"
 
 
 def running(label: str) -> str:

@@ -148,24 +148,24 @@ def classify(
 
 def summarise(found: EnvironmentMap, targets: list[str]) -> None:
     """Print what was found, what was not understood, and where the results are."""
-    result = table("environment", "share", "segments", title=None)
-    names = [*(e.name for e in found.environments), None]
+    result = table("environment", "share", "segments")
     for position, (name, share) in enumerate(found.shares().items()):
-        label = position if name is not None else -1
-        result.add_row(name or "unknown", f"{share:.1%}", str(int((found.label == label).sum())))
-    assert len(names) == result.row_count
+        count = int((found.label == (-1 if name is None else position)).sum())
+        if count:
+            result.add_row(name or "unknown", f"{share:.1%}", str(count))
     report = found.landmarks.report
     lines = [f"{len(found.landmarks)} landmarks in {len(found)} segments"]
     if report.unknown:
         most = ", ".join(f"{name} ({n})" for name, n in report.unknown.most_common(8))
         lines.append(
-            f"{sum(report.unknown.values())} of {len(report.unknown)} kinds are not in the "
-            f"ontology and were left out: {most}{', ...' if len(report.unknown) > 8 else ''}"
+            f"{sum(report.unknown.values())} landmarks of {len(report.unknown)} kinds that the "
+            f"ontology does not know were left out: {most}"
+            + (", ..." if len(report.unknown) > 8 else "")
         )
     if report.outside:
         lines.append(f"{report.outside} outside the bounding box were left out")
     if report.duplicates:
-        lines.append(f"{report.duplicates} exact duplicates were left out")
+        lines.append(f"{report.duplicates} exact duplicate(s) left out")
     lines += report.notes
     lines += [f"wrote {Path(t).resolve()}" for t in targets if t != "-"]
     show(result, "\n".join(lines), error="-" in targets)

@@ -124,9 +124,9 @@ def sample(
 ) -> None:
     """Make a made-up town of a few thousand landmarks to try things on."""
     from symboslam.engine.sample import sample_area
-    from symboslam.engine.writers.atomic import atomic_write
+    from symboslam.engine.writers.atomic import atomic_file
 
     town = sample_area(seed=seed)
-    with atomic_write(out) as handle:
-        json.dump(town, handle)
+    with atomic_file(out) as handle:
+        handle.write(json.dumps(town).encode())
     show(f"wrote {len(town['features'])} landmarks to {out}")

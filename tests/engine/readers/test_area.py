@@ -11,7 +11,7 @@ import pytest
 import shapely
 
 from symboslam.engine.landmarks import LandmarkMap
-from symboslam.errors import GeometryError
+from symboslam.errors import GeometryError, LandmarkError
 
 Read = Callable[..., LandmarkMap]
 A = 6378137.0  # WGS 84
@@ -49,6 +49,12 @@ def test_metres_of_a_box_at_the_equator(read: Read) -> None:
     assert landmarks.frame.origin == (0, 0)
     assert landmarks.bbox == pytest.approx((-east, -north, east, north), abs=1e-4)
     assert landmarks.surveyed is None
+
+
+def test_a_meridian_is_widest_at_the_equator(read: Read) -> None:
+    """There, between the corners, it is a * 1 degree away; at the corners 17 m less."""
+    west, _, east, _ = read(collection((0, 0), bbox=[-1, -1, 1, 1])).bbox
+    assert (west, east) == pytest.approx((-A * math.radians(1), A * math.radians(1)), abs=1e-5)
 
 
 def test_the_box_covers_its_bulging_edges(read: Read) -> None:
@@ -201,6 +207,13 @@ def test_one_landmark_in_degrees_is_padded_in_metres(read: Read) -> None:
     assert landmarks.surveyed is None
 
 
+def test_a_small_area_far_from_the_origin_is_whole(read: Read) -> None:
+    far = 5e8
+    landmarks = read(collection((far, far), (far + 3, far + 3), crs_units="m"))
+    assert landmarks.bbox == (far, far, far + 3, far + 3)
+    assert landmarks.surveyed is None
+
+
 # The antimeridian
 
 
@@ -310,3 +323,5 @@ def test_national_degrees_are_converted_and_checked(read: Read) -> None:
     """GDA94 and WGS 84 are the same to within a metre or two."""
     landmarks = read(collection((149.1, -35.3), (149.2, -35.2)), crs="EPSG:4283")
     assert np.allclose(landmarks.frame.origin, (149.15, -35.25), atol=5e-5)
+    with pytest.raises(LandmarkError, match="look swapped"):
+        read(collection((-35.3, 149.1)), crs="EPSG:4283")

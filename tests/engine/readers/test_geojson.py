@@ -321,6 +321,14 @@ def test_a_bad_feature_is_named(read: Read, feature: Any, message: str) -> None:
     assert caught.value.source == "GeoJSON"
 
 
+@pytest.mark.parametrize("others", [[], [point(1, building="house"), point(2)]])
+def test_nothing_said_is_refused_unless_all_others_have_flat_tags(
+    read: Read, others: list[Any]
+) -> None:
+    with pytest.raises(LandmarkError, match=f"feature {len(others)} .*neither a class nor tags"):
+        read(metres(*others, point(name="x")))
+
+
 def test_a_surrogate_in_an_unknown_class_can_be_printed(read: Read) -> None:
     unknown = read(metres(point(**{"class": "a\ud800"}))).report.unknown
     assert list(unknown) == ["a\ufffd"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
@@ -68,7 +68,7 @@ Given = Mapping[int, tuple[Reason, ...]]
 class HandMadeMap(EnvironmentMap):
     """A map whose reasons are given instead of computed."""
 
-    given: Given = {}
+    given: ClassVar[Given] = {}
 
     def reasons(
         self, segments: Sequence[int], limit: int | None = None

@@ -8,7 +8,7 @@ import stat
 import subprocess
 import sys
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -36,9 +36,14 @@ def test_new_file_appears_when_the_block_ends(tmp_path: Path) -> None:
 def test_any_error_keeps_the_old_file(tmp_path: Path, error: BaseException) -> None:
     target = tmp_path / "map.txt"
     target.write_bytes(b"old")
-    with pytest.raises(type(error)), atomic_file(target) as stream:
-        stream.write(b"half")
-        raise error
+
+    def fail() -> None:
+        with atomic_file(target) as stream:
+            stream.write(b"half")
+            raise error
+
+    with pytest.raises(type(error)):
+        fail()
     assert target.read_bytes() == b"old"
     assert files_in(tmp_path) == ["map.txt"]
 
@@ -159,7 +164,7 @@ def small_disk(tmp_path: Path) -> Iterator[Path]:
 
 @pytest.mark.parametrize("ending", ["geojson", "ttl", "nq", "png"])
 def test_full_disk_keeps_the_old_map(
-    small_disk: Path, make_town: type[EnvironmentMap], ending: str
+    small_disk: Path, make_town: Callable[[], EnvironmentMap], ending: str
 ) -> None:
     target = small_disk / f"map.{ending}"
     target.write_bytes(b"old")

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
@@ -52,7 +52,12 @@ def test_properties_of_segments(town: EnvironmentMap, tmp_path: Path) -> None:
         [],
     )
     assert open_ground["reasons"] == [
-        {"feature": "OpenGround", "label": "open ground", "count": 0, "contribution": {"NonUrban": 1}}
+        {
+            "feature": "OpenGround",
+            "label": "open ground",
+            "count": 0,
+            "contribution": {"NonUrban": 1},
+        }
     ]
 
 
@@ -184,6 +189,7 @@ distributions = arrays(float, (4, 3), elements=st.floats(1e-9, 1)).map(
 )
 
 
+@settings(deadline=None)
 @given(
     probability=distributions,
     known=arrays(bool, 4),
@@ -220,6 +226,7 @@ def test_any_map_is_valid(
             assert given is None
 
 
+@settings(deadline=None)
 @given(distributions)
 def test_millionths_add_up_and_stay_close(probability: Any) -> None:
     whole = millionths(probability)
@@ -235,6 +242,7 @@ def test_millionths_by_hand() -> None:
 shares = st.dictionaries(st.sampled_from("AB"), st.floats(-1, 1), max_size=2)
 
 
+@settings(deadline=None)
 @given(st.lists(shares, min_size=1, max_size=6), st.integers(1, 7))
 def test_listed_reasons_add_up_to_the_probability(
     contributions: list[dict[str, float]], limit: int

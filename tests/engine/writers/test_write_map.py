@@ -69,12 +69,12 @@ def test_standard_output(town: EnvironmentMap, capfdbinary: Any) -> None:
     assert capfdbinary.readouterr().out.startswith(b"@prefix sl: ")
 
 
-def test_progress_ends_at_one(town: EnvironmentMap, tmp_path: Path) -> None:
-    for ending in ("geojson", "ttl", "nq", "png"):
-        shares: list[float] = []
-        write_map(town, tmp_path / f"m.{ending}", progress=lambda stage, s: shares.append(s))
-        assert shares[-1] == 1
-        assert shares == sorted(shares)
+@pytest.mark.parametrize("ending", ["geojson", "ttl", "nq", "png"])
+def test_progress_ends_at_one(town: EnvironmentMap, tmp_path: Path, ending: str) -> None:
+    shares: list[float] = []
+    write_map(town, tmp_path / f"m.{ending}", progress=lambda stage, share: shares.append(share))
+    assert shares[-1] == 1
+    assert shares == sorted(shares)
 
 
 def test_reasons_are_left_out_of_large_maps_unless_asked_for() -> None:

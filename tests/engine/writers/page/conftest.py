@@ -177,8 +177,8 @@ def make_map(
     feature = np.array([position[name] for name in names], np.int32)
     weight = np.zeros((len(position), len(knowledge.environments)))
     place = {e.name: k for k, e in enumerate(knowledge.environments)}
-    for i in knowledge.indications:
-        weight[position[i.feature], place[i.environment]] = i.proximity
+    for said in knowledge.indications:
+        weight[position[said.feature], place[said.environment]] = said.proximity
     middle = shapely.get_coordinates(shapely.centroid(geometry))
     width = np.sqrt(shapely.area(geometry).sum() / max(s, 1)) * 0.8 or 1.0
     crowd = np.zeros((s, len(position)))

@@ -1,0 +1,162 @@
+"""The command line as users meet it."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import symboslam
+
+SUFFIXES = ("geojson", "ttl", "nq", "png", "html")
+
+
+def test_help_names_every_command(run: Any) -> None:
+    result = run("--help")
+    assert result.code == 0
+    for name in ("classify", "explain", "feature", "environments", "ontology", "sample"):
+        assert name in result.out
+
+
+@pytest.mark.parametrize(
+    "command", [["classify"], ["explain"], ["feature"], ["environments"], ["ontology", "check"]]
+)
+def test_every_command_has_help(run: Any, command: list[str]) -> None:
+    assert run(*command, "--help").code == 0
+
+
+def test_version(run: Any) -> None:
+    assert run("--version").out.strip() == f"symboslam {symboslam.__version__}"
+
+
+def test_one_run_writes_every_format(run: Any, town: Path, tmp_path: Path) -> None:
+    outs = [tmp_path / f"map.{suffix}" for suffix in SUFFIXES]
+    result = run("classify", town, *(part for out in outs for part in ("--out", out)))
+    assert result.code == 0, result.err
+    assert "Residential" in result.out
+    for out in outs:
+        assert out.stat().st_size > 1000
+        assert str(out) in result.out.replace("\n", "")
+
+
+def test_the_map_meets_the_contract(run: Any, town: Path, tmp_path: Path) -> None:
+    out = tmp_path / "map.geojson"
+    assert run("classify", town, "--out", out, "--scheme", "territory-plan").code == 0
+    data = json.loads(out.read_text())
+    names = {e.name for e in symboslam.Knowledge.load().scheme("territory-plan")}
+    assert len(names) == 7
+    assert len(data["features"]) > 50
+    for feature in data["features"]:
+        p = feature["properties"]
+        assert p["environment"] in names
+        assert set(p["probabilities"]) == names
+        assert sum(p["probabilities"].values()) == pytest.approx(1, abs=1e-5)
+        assert p["probabilities"][p["environment"]] == max(p["probabilities"].values())
+        parts = sum(r["contribution"].get(p["environment"], 0) for r in p["reasons"])
+        assert parts == pytest.approx(p["probabilities"][p["environment"]], abs=1e-4)
+    assert data["symboslam"]["config"]["profile"] == "default"
+    counted = sum(f["properties"]["landmark_count"] for f in data["features"])
+    assert counted == data["symboslam"]["report"]["read"]
+
+
+def test_standard_input_and_output(run_process: Any, town_text: str) -> None:
+    result = run_process("classify", "-", "--out", "-", stdin=town_text)
+    assert result.code == 0, result.err
+    assert json.loads(result.out)["type"] == "FeatureCollection"
+    assert "Residential" in result.err  # the summary does not mix with the data
+    assert "\x1b" not in result.err  # no progress bar without a terminal
+
+
+def test_quiet_prints_nothing(run: Any, town: Path, tmp_path: Path) -> None:
+    result = run("classify", town, "--out", tmp_path / "map.geojson", "--quiet")
+    assert (result.code, result.out, result.err) == (0, "", "")
+
+
+@pytest.mark.parametrize("suffix", ["geojson", "ttl", "nq"])
+def test_explain_reads_what_classify_wrote(
+    run: Any, town: Path, tmp_path: Path, suffix: str
+) -> None:
+    geojson, out = tmp_path / "first.geojson", tmp_path / f"map.{suffix}"
+    assert run("classify", town, "--out", geojson, "--out", out).code == 0
+    features = json.loads(geojson.read_text())["features"]
+    home = next(f for f in features if f["properties"]["environment"] == "Residential")
+    name = home["properties"]["segment_id"]
+    told = run("explain", out, name)
+    assert told.code == 0, told.err
+    assert told.out.startswith(f"Segment {name} is Residential (P = ")
+    assert "Why not " in told.out
+    assert told.out == run("explain", geojson, name).out
+    numbers = json.loads(run("explain", out, name, "--json").out)
+    assert numbers["environment"] == "Residential"
+    against = run("explain", out, name, "--against", "Industrial")
+    assert "Why not Industrial" in against.out
+
+
+def test_feature_says_what_how_strongly_and_why(run: Any) -> None:
+    told = run("feature", "house")
+    assert told.code == 0
+    for word in ("Residential", "0.90", "building=house", "RZ1", "importance 1.00"):
+        assert word in told.out
+    record = json.loads(run("feature", "building=barn", "--json").out)
+    assert record["name"] == "Barn"
+    assert record["indications"][0]["environment"] == "NonUrban"
+
+
+def test_environments_lists_zones_and_schemes(run: Any) -> None:
+    told = run("environments")
+    assert told.code == 0
+    for word in ("Residential", "RZ5", "NUZ5", "Military", "territory-plan (7)"):
+        assert word in told.out
+    assert len(json.loads(run("environments", "--scheme", "territory-plan", "--json").out)) == 7
+
+
+def test_sample_is_deterministic(run: Any, tmp_path: Path) -> None:
+    one, two = tmp_path / "one.geojson", tmp_path / "two.geojson"
+    assert run("sample", "--out", one, "--seed", 5).code == 0
+    assert run("sample", "--out", two, "--seed", 5).code == 0
+    assert one.read_bytes() == two.read_bytes()
+
+
+def test_the_profile_can_come_from_the_environment(
+    run: Any, town: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("SYMBOSLAM_PROFILE", "paper")
+    out = tmp_path / "map.geojson"
+    assert run("classify", town, "--out", out).code == 0
+    assert json.loads(out.read_text())["symboslam"]["config"]["profile"] == "paper"
+
+
+def test_shell_completion_is_offered(run_process: Any) -> None:
+    assert "--install-completion" in run_process("--help").out
+
+
+def test_a_first_classification_starts_no_jvm(town: Path, tmp_path: Path) -> None:
+    code = (
+        "import subprocess, sys\n"
+        "def stop(*a, **k): raise SystemExit('a process was started')\n"
+        "subprocess.Popen.__init__ = stop\n"
+        f"sys.argv = ['symboslam', 'classify', {str(town)!r}, '-o', 'map.geojson']\n"
+        "from symboslam.cli import main\n"
+        "main()\n"
+        "assert 'owlready2' not in sys.modules and 'rdflib' not in sys.modules\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=60
+    )
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "map.geojson").exists()
+
+
+def test_errors_of_ours_have_exit_code_3(run: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(*_: object, **__: object) -> None:
+        raise RuntimeError("boom")
+
+    monkeypatch.setattr(symboslam.Knowledge, "load", broken)
+    result = run("environments")
+    assert result.code == 3
+    assert "internal error" in result.err
+    assert "boom" in result.err

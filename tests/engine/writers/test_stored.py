@@ -1,0 +1,124 @@
+"""Maps read back from their files explain their segments, equally from every format."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from symboslam.engine.environment_map import EnvironmentMap
+from symboslam.engine.explanation import Reason
+from symboslam.engine.writers import write_map
+from symboslam.engine.writers.stored import StoredMap, read_map
+from symboslam.errors import InputError, UnknownNameError
+
+Make = Callable[..., EnvironmentMap]
+ENDINGS = ("geojson", "ttl", "nq")
+
+
+def stored(environment_map: EnvironmentMap, folder: Path, ending: str, reasons: int) -> StoredMap:
+    target = folder / f"map.{ending}"
+    write_map(environment_map, target, reasons=reasons)
+    return read_map(target)
+
+
+@pytest.mark.parametrize("reasons", [0, 2, 8])
+def test_all_formats_tell_the_same(town: EnvironmentMap, tmp_path: Path, reasons: int) -> None:
+    first, *others = (stored(town, tmp_path, ending, reasons) for ending in ENDINGS)
+    assert len(first) == 4
+    for other in others:
+        assert other.segments == first.segments
+        assert other.environments == first.environments
+        assert other.features == first.features
+        assert other.indications == first.indications
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+def test_explanations_survive(town: EnvironmentMap, tmp_path: Path, ending: str) -> None:
+    found = stored(town, tmp_path, ending, 8)
+    for segment_id in town.segment_id:
+        assert found.explain(segment_id) == town.explain(segment_id)
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+def test_the_rest_comes_last_without_a_feature(
+    town: EnvironmentMap, tmp_path: Path, ending: str
+) -> None:
+    house, other = stored(town, tmp_path, ending, 1).explain("0-0-0").reasons
+    assert house == Reason("House", "house", 2, {"Residential": 0.6})
+    rest = {"Residential": 0.1, "Commercial": 0.1, "NonUrban": 0.2}
+    assert other == Reason("", "other", 2, rest)
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+def test_sentences_behind_reasons(town: EnvironmentMap, tmp_path: Path, ending: str) -> None:
+    found = stored(town, tmp_path, ending, 8)
+    assert found.find_indication("Shop", "Commercial") == town.knowledge.indications[1]
+    assert found.find_indication("Shop", "NonUrban") is None
+    assert found.find_indication("", "NonUrban") is None
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+def test_unknown_segment(town: EnvironmentMap, tmp_path: Path, ending: str) -> None:
+    found = stored(town, tmp_path, ending, 0)
+    with pytest.raises(UnknownNameError, match=r"no segment '0-0-2'.*close: .*0-0-0"):
+        found.explain("0-0-2")
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+def test_empty_map(empty: EnvironmentMap, tmp_path: Path, ending: str) -> None:
+    explanation = stored(empty, tmp_path, ending, 8).explain("0-0-0")
+    assert explanation.environment is None
+    assert explanation.probabilities == {}
+    assert explanation.reasons == ()
+
+
+def test_geojson_of_others_needs_only_the_contract(tmp_path: Path) -> None:
+    properties = {
+        "segment_id": 7,
+        "environment": "Home",
+        "probabilities": {"Home": 1},
+        "landmark_count": 0,
+    }
+    collection = {
+        "type": "FeatureCollection",
+        "features": [{"type": "Feature", "geometry": None, "properties": properties}],
+    }
+    (tmp_path / "map.json").write_text(json.dumps(collection))
+    assert read_map(tmp_path / "map.json").explain("7").probabilities == {"Home": 1.0}
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "problem"),
+    [
+        ("map.geojson", "", "no JSON"),
+        ("map.geojson", '{"type": "Fea', "no JSON"),
+        ("map.geojson", "[]", "no environment map"),
+        ("map.geojson", '{"features": [{"properties": null}]}', "no environment map"),
+        ("map.geojson", '{"features": [{"properties": {"class": "House"}}]}', "segment_id"),
+        ("map.ttl", "<a> <b", "does not parse"),
+        ("map.nq", "<a> .", "does not parse"),
+        ("map.ttl", "", "holds no sl:EnvironmentMap"),
+        ("map.png", "", r"only maps in \.geojson"),
+    ],
+)
+def test_files_that_are_no_maps(tmp_path: Path, name: str, content: str, problem: str) -> None:
+    (tmp_path / name).write_text(content)
+    with pytest.raises(InputError, match=problem):
+        read_map(tmp_path / name)
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+def test_missing_file(tmp_path: Path, ending: str) -> None:
+    with pytest.raises(InputError, match="cannot be read: No such file"):
+        read_map(tmp_path / f"map.{ending}")
+
+
+def test_incomplete_rdf(town: EnvironmentMap, tmp_path: Path) -> None:
+    write_map(town, tmp_path / "map.ttl")
+    text = (tmp_path / "map.ttl").read_text()
+    (tmp_path / "map.ttl").write_text(text.replace("sl:count 2", 'sl:count "two"'))
+    with pytest.raises(InputError, match="no complete environment map"):
+        read_map(tmp_path / "map.ttl")
