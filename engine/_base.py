@@ -60,4 +60,5 @@ class Evidence(ABC):
 def normalised(evidence: Floats) -> Floats:
     """P(e) = P~(e) / sum of P~; rows without evidence stay 0 (design 5)."""
     total = evidence.sum(-1, keepdims=True)
-    return np.divide(evidence, total, out=np.zeros_like(evidence), where=total > 0)
+    zeros = np.zeros_like(evidence)
+    return np.asarray(np.divide(evidence, total, out=zeros, where=total > 0))

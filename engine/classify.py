@@ -66,7 +66,7 @@ def classify(
         """Settled by the evidence, and not partly outside what was looked at."""
         part = _sums(grid, seen, cells)
         whole = (part == 0) | (part == np.asarray(grid.span(cells.depth)) ** 2)
-        return evidence.settled(cells, values) & whole
+        return np.asarray(evidence.settled(cells, values) & whole)
 
     cells, values = quadtree(grid, evidence.of, settled)
     source = cells
@@ -131,9 +131,7 @@ def _estimated(evidence: Evidence) -> dict[str, Any]:
     return {}
 
 
-def _inherit(
-    grid: Grid, evidence: Evidence, cells: Cells, values: Floats
-) -> tuple[Cells, Floats]:
+def _inherit(grid: Grid, evidence: Evidence, cells: Cells, values: Floats) -> tuple[Cells, Floats]:
     """Cells without evidence take that of the nearest larger cell that has some."""
     source = Cells(cells.depth.copy(), cells.row.copy(), cells.column.copy())
     values = values.copy()

@@ -131,7 +131,8 @@ class PairEvidence(Evidence):
         """A cell with too few landmarks, or whose largest P reaches the threshold."""
         count = np.array([len(inside) for inside in self.members(cells)])
         few = count < max(self._settings.min_landmarks, 1)
-        return few | (normalised(evidence).max(1, initial=0) >= self._settings.threshold)
+        sure = normalised(evidence).max(1, initial=0) >= self._settings.threshold
+        return np.asarray(few | sure)
 
     def contributions(self, cells: Cells) -> Iterator[Contributions]:
         """Each landmark's share of the inferences (own) and of C (pairs)."""

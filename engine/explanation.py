@@ -89,9 +89,7 @@ def reasons_of(
     if contributions.ground.any() and knowledge.absence:
         ground = knowledge.index_of(knowledge.absence[0])
         if ground is not None:
-            found.append(
-                _reason(knowledge, ground, 0, contributions.ground / total, environments)
-            )
+            found.append(_reason(knowledge, ground, 0, contributions.ground / total, environments))
     return tuple(sorted(found, key=lambda r: -max(map(abs, r.contribution.values()))))
 
 
@@ -105,4 +103,3 @@ def _reason(
     known = knowledge.features[feature]
     parts = {e.name: float(v) for e, v in zip(environments, share, strict=True) if v}
     return Reason(known.name, known.label, count, parts)
-

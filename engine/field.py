@@ -114,9 +114,8 @@ class FieldEvidence(Evidence):
             return np.zeros((0, self._finest.shape[2]))
         depth = int(cells.depth[0])
         span = int(self._grid.span(depth))
-        return np.asarray(
-            self._grid.coarsen(self._finest, depth)[cells.row, cells.column] / span**2
-        )
+        sums = self._grid.coarsen(self._finest, depth)[cells.row, cells.column]
+        return np.asarray(sums, np.float64) / span**2
 
     def settled(self, cells: Cells, evidence: Floats) -> NDArray[np.bool_]:
         """Where all finest cells inside agree, or the largest P reaches the threshold."""
@@ -157,7 +156,7 @@ class FieldEvidence(Evidence):
         return diags_array(HECTARE / area) @ total
 
     def contributions(self, cells: Cells) -> Iterator[Contributions]:
-        """Each landmark's weight times its kernel over the cell, less what neighbours contradict."""
+        """Each landmark's weight times its kernel over the cell, less what neighbours deny."""
         for start in range(0, len(cells), 500):
             part = cells.take(np.arange(start, min(start + 500, len(cells))))
             coverage = self._coverage(part)
@@ -208,7 +207,8 @@ def dissimilarity(xy: Floats, weight: Floats, radius: float) -> Floats:
             )
     around = np.maximum(around[place] - weight, 0)  # others only
     total = around.sum(1, keepdims=True)
-    return np.divide(total - around, total, out=np.zeros((n, k)), where=total > 1e-12)
+    zeros = np.zeros((n, k))
+    return np.asarray(np.divide(total - around, total, out=zeros, where=total > 1e-12))
 
 
 def crowding_share(field: Floats) -> float:

@@ -102,7 +102,9 @@ class Grid:
 
 
 def quadtree(
-    grid: Grid, evidence: Callable[[Cells], Floats], settled: Callable[[Cells, Floats], NDArray[np.bool_]]
+    grid: Grid,
+    evidence: Callable[[Cells], Floats],
+    settled: Callable[[Cells, Floats], NDArray[np.bool_]],
 ) -> tuple[Cells, Floats]:
     """Split cells into quadrants until each is settled (design 6, paper section on grid maps).
 
@@ -119,11 +121,7 @@ def quadtree(
     open_cells = grid.level(0)
     for depth in range(grid.depth + 1):
         found = evidence(open_cells)
-        done = (
-            np.ones(len(open_cells), bool)
-            if depth == grid.depth
-            else settled(open_cells, found)
-        )
+        done = np.ones(len(open_cells), bool) if depth == grid.depth else settled(open_cells, found)
         kept.append((open_cells.take(done), found[done]))
         open_cells = _quadrants(open_cells.take(~done))
         if not len(open_cells):

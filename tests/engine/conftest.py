@@ -33,7 +33,9 @@ def knowledge() -> Knowledge:
             path[i, names.index(environment)] = strength
             reason = f"A {name.lower()} is {environment.lower()}."
             way = (name, environment)
-            indications.append(Indication(name, environment, strength, 0, way, reason, "test", is_direct=True))
+            indications.append(
+                Indication(name, environment, strength, 0, way, reason, "test", is_direct=True)
+            )
     return Knowledge(
         environments=environments,
         features=features,

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 from shapely import area, box, union_all
 
 from symboslam.engine.grid import Cells, Grid, quadtree
@@ -50,8 +51,8 @@ def test_segments_tile_the_map(cells: int, seed: int) -> None:
 def test_only_unsettled_cells_are_split() -> None:
     grid = Grid((0, 0, 24, 24), 24)
 
-    def settled(cells: Cells, values: np.ndarray) -> np.ndarray:  # type: ignore[type-arg]
-        return ~((cells.row == 0) & (cells.column == 0))
+    def settled(cells: Cells, values: NDArray[np.float64]) -> NDArray[np.bool_]:
+        return np.asarray((cells.row > 0) | (cells.column > 0))
 
     segments, _ = quadtree(grid, lambda c: np.zeros((len(c), 1)), settled)
     assert np.bincount(segments.depth).tolist() == [8, 3, 3, 4]

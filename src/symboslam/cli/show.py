@@ -1,4 +1,4 @@
-"""``symboslam feature``, ``environments`` and ``sample``: what the ontology says, and data to try."""
+"""``symboslam feature``, ``environments`` and ``sample``: look things up, get data to try."""
 
 from __future__ import annotations
 
