@@ -15,7 +15,7 @@ STAMP := .venv/.installed-$(shell pwd -P | cksum | cut -d ' ' -f 1)
 BENCHMARK ?= ../shared/benchmark
 SEED ?= 7
 
-.PHONY: help demo test test-slow lint format bench docs knowledge results system wheel clean
+.PHONY: help demo test test-slow lint format bench docs knowledge results picture system wheel clean
 
 help: ## list the targets
 	@grep -E '^[a-z.][a-z.-]*:.*## ' Makefile | sed -E 's/^([a-z.-]+):.*## /\1\t/' | expand -t 14
@@ -66,6 +66,9 @@ knowledge: $(STAMP) ## reason over the bundled ontology anew
 
 results: $(STAMP) ## score against the benchmark in $(BENCHMARK), write docs/results.md
 	@$(PY) scripts/results.py --benchmark "$(BENCHMARK)"
+
+picture: demo ## take the picture in the README anew (needs Chromium)
+	@scripts/readme-picture
 
 system: ## install Chromium, which the browser tests drive (Debian or Ubuntu, as root)
 	@scripts/install-system

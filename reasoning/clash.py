@@ -103,7 +103,7 @@ def explain(
             else:
                 high = starts[-1]
         needed += rest[low : low + 1]  # nothing if what is needed clashes by itself
-        rest = rest[low + 1 :] if low < len(rest) else []
+        rest = rest[low + 1 :]
     return needed
 
 

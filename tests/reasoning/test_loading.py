@@ -211,6 +211,42 @@ def test_several_files(hermit: None, resource: Resource) -> None:
     assert [e.name for e in knowledge.environments] == ["Home", "Kitchen", "Park", "Work"]
 
 
+def test_inferred_kinds(hermit: None, tmp_path: Path) -> None:
+    """That a manor is a garden house, and a lawn a park, follows but is stated nowhere."""
+    (tmp_path / "a.ttl").write_text("""
+    @prefix : <https://example.org/x#> .
+    @prefix sl: <https://w3id.org/symboslam#> .
+    @prefix owl: <http://www.w3.org/2002/07/owl#> .
+    @prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .
+    :has a owl:ObjectProperty . :Garden a owl:Class .
+    :Home a owl:Class ; rdfs:subClassOf sl:Environment .
+    :Park a owl:Class ; rdfs:subClassOf sl:Environment ;
+        owl:equivalentClass [ a owl:Class ; owl:intersectionOf ( sl:Environment
+            [ a owl:Restriction ; owl:onProperty :has ; owl:someValuesFrom :Garden ] ) ] .
+    :Lawn rdfs:subClassOf sl:Environment ,
+        [ a owl:Restriction ; owl:onProperty :has ; owl:someValuesFrom :Garden ] .
+    :House rdfs:subClassOf sl:StaticFeature ,
+        [ a owl:Restriction ; owl:onProperty sl:indicates ; owl:someValuesFrom :Home ] .
+    :GardenHouse owl:equivalentClass [ a owl:Class ; owl:intersectionOf ( :House
+            [ a owl:Restriction ; owl:onProperty :has ; owl:someValuesFrom :Garden ] ) ] ;
+        rdfs:subClassOf [ owl:onProperty sl:indicates ; owl:someValuesFrom :Lawn ] .
+    :Manor rdfs:subClassOf :House ,
+        [ a owl:Restriction ; owl:onProperty :has ; owl:someValuesFrom :Garden ] .
+    """)
+    knowledge = Knowledge.load(tmp_path / "a.ttl")
+    assert [e.name for e in knowledge.environments] == ["Home", "Park"]
+    home, park = knowledge.indications_of("Manor")
+    assert home.path == ("Manor", "House", "Home")
+    assert home.axioms == ("Manor is a kind of House", "House indicates Home (strength 1)")
+    assert park.path == ("Manor", "GardenHouse", "Lawn", "Park")
+    assert park.axioms == (
+        "Manor is a kind of Garden house (inferred)",
+        "Garden house indicates Lawn (strength 1)",
+        "Lawn is a kind of Park (inferred)",
+    )
+    assert [i.environment for i in knowledge.indications_of("House")] == ["Home"]
+
+
 def test_no_files() -> None:
     with pytest.raises(EmptyOntologyError, match="no ontology file"):
         Knowledge.load([])

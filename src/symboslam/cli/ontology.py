@@ -30,7 +30,7 @@ def check(
 ) -> None:
     """Reason over an ontology and list what would keep it from working.
 
-    Exit code 0: nothing found; 1: findings; 2: it cannot be read, or contradicts itself.
+    Exit code 0: nothing found; 1: findings, a contradiction among them; 2: it cannot be read.
     """
     from symboslam.reasoning.check import check_ontology
 
