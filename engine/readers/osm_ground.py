@@ -5,7 +5,7 @@ docs/decisions/0003-surveyed-area-of-osm-extracts.md tells why.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -33,27 +33,15 @@ _BATCH = 20_000
 
 _REMARKS = frozenset({"created_by", "fixme", "note", "source", "type"})
 """Keys that say nothing of what is there."""
-_NOT_ON_THE_GROUND = {
-    "location": {"underwater"},
-    "natural": {"bay", "strait"},
-    "place": {"ocean", "sea"},
-    "route": {"ferry"},
-    "submarine": {"yes"},
-}
-"""Lines across water and names of it: nobody mapped the ground there."""
-_PHYSICAL = frozenset(
-    {
-        "barrier",
-        "building",
-        "highway",
-        "landuse",
-        "man_made",
-        "natural",
-        "power",
-        "railway",
-        "waterway",
-    }
+_NOT_ON_THE_GROUND = (
+    ("location", ("underwater",)),
+    ("natural", ("bay", "strait")),
+    ("place", ("ocean", "sea")),
+    ("route", ("ferry",)),
+    ("submarine", ("yes",)),
 )
+"""Lines across water and names of it: nobody mapped the ground there."""
+_PHYSICAL = ("barrier", "building", "highway", "landuse", "man_made", "natural", "railway", "waterway")
 """Keys that make a boundary line an object too, such as a river."""
 
 
@@ -96,16 +84,16 @@ def _mark(packed: Any, mask: _Mask) -> None:
     lines: list[str] = []
     bare: dict[int, str] = {}
     for element in processor:
-        tags = {tag.k: tag.v for tag in element.tags if tag.k not in _REMARKS}
+        tags = element.tags
         if element.is_node():
-            if element.location.valid() and _is_on_the_ground(tags):
+            if element.location.valid() and not _is_bare(tags) and _is_on_the_ground(tags):
                 points.append((element.lon, element.lat))
         elif element.is_way():
-            if not tags:  # counts as a part of a multipolygon; those come after all ways
+            if _is_bare(tags):  # counts as a part of a multipolygon; those come after all ways
                 bare[element.id] = _line(element, factory)
             elif _is_on_the_ground(tags):
                 lines.append(_line(element, factory))
-        elif element.tags.get("type") == "multipolygon" and (not tags or _is_on_the_ground(tags)):
+        elif tags.get("type") == "multipolygon" and _is_on_the_ground(tags):
             refs = (member.ref for member in element.members if member.type == "w")
             lines.extend(bare.pop(ref) for ref in refs if ref in bare)
         if len(points) + len(lines) >= _BATCH:
@@ -115,11 +103,16 @@ def _mark(packed: Any, mask: _Mask) -> None:
     mask.add(points, lines)
 
 
-def _is_on_the_ground(tags: Mapping[str, str]) -> bool:
-    """Whether tags tell of something on the ground."""
-    if "boundary" in tags and _PHYSICAL.isdisjoint(tags):
+def _is_bare(tags: Any) -> bool:
+    """Whether there are no tags but remarks."""
+    return len(tags) <= len(_REMARKS) and all(tag.k in _REMARKS for tag in tags)
+
+
+def _is_on_the_ground(tags: Any) -> bool:
+    """Whether something with these tags is an object on the ground."""
+    if "boundary" in tags and not any(key in tags for key in _PHYSICAL):
         return False
-    return bool(tags) and not any(tags.get(key) in bad for key, bad in _NOT_ON_THE_GROUND.items())
+    return not any(tags.get(key) in values for key, values in _NOT_ON_THE_GROUND)
 
 
 def _line(way: Any, factory: Any) -> str:
@@ -150,8 +143,8 @@ class _Mask:
         self.step = np.array([size / narrow, size])
         self.origin = np.array([west - margin / narrow, south - margin])
         end = np.array([east + margin / narrow, north + margin])
-        self.shape = tuple(np.ceil((end - self.origin) / self.step).astype(int))
-        self.seen = np.zeros(self.shape, np.bool_)  # (columns, rows)
+        columns, rows = np.ceil((end - self.origin) / self.step).astype(int).tolist()
+        self.seen = np.zeros((columns, rows), np.bool_)
 
     def add(self, points: Iterable[tuple[float, float]], lines: list[str]) -> None:
         """Mark the cells of points, and those that lines (as WKB) cross.
@@ -160,7 +153,7 @@ class _Mask:
         """
         import shapely
 
-        end = self.origin + self.step * self.shape
+        end = self.origin + self.step * self.seen.shape
         inside = shapely.clip_by_rect(shapely.from_wkb(lines), *self.origin, *end)
         dense = shapely.get_coordinates(shapely.segmentize(inside, self.step[1]))
         self._set(dense)
@@ -168,7 +161,7 @@ class _Mask:
 
     def _set(self, places: Floats) -> None:
         cells = np.floor((places - self.origin) / self.step).astype(np.int64)
-        cells = cells[((cells >= 0) & (cells < self.shape)).all(1)]
+        cells = cells[((cells >= 0) & (cells < self.seen.shape)).all(1)]
         self.seen[cells[:, 0], cells[:, 1]] = True
 
     def ground(self) -> BaseGeometry:

@@ -13,7 +13,6 @@ import pytest
 
 from symboslam.errors import (
     EmptyOntologyError,
-    InconsistentOntologyError,
     InputError,
     OntologyError,
     OntologySyntaxError,
@@ -288,6 +287,6 @@ def test_syntax_error(resource: Resource) -> None:
 def test_refused_ontology_is_not_cached(
     hermit: None, resource: Resource, cache_folder: Path
 ) -> None:
-    with pytest.raises(InconsistentOntologyError):
-        Knowledge.load(resource("invalid_inconsistent.ttl"))
+    with pytest.raises(EmptyOntologyError):
+        Knowledge.load(resource("invalid_no_indications.ttl"))
     assert not list(cache_folder.iterdir())
