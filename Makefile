@@ -40,7 +40,7 @@ demo: $(STAMP) ## make a sample town, classify it, write an explained map
 	  --out demo/map.png
 	echo "Open in a browser: $$(pwd)/demo/map.html"
 
-test: $(STAMP) ## run the tests (a minute or two)
+test: $(STAMP) ## run the tests (some minutes)
 	@$(PY) -m pytest -m "not slow and not network"
 
 test-slow: $(STAMP) ## run the long tests as well

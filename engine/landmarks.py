@@ -29,6 +29,7 @@ class ReadReport:
         outside: landmarks outside the requested bounding box.
         duplicates: landmarks left out because their id had occurred before with the same content.
         notes: anything else worth a line to the user.
+        attribution: whose data it is and under what licence, one line; empty if not known.
     """
 
     source: str = ""
@@ -37,6 +38,7 @@ class ReadReport:
     outside: int = 0
     duplicates: int = 0
     notes: tuple[str, ...] = ()
+    attribution: str = ""
 
 
 @dataclass(frozen=True)

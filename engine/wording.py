@@ -30,6 +30,8 @@ def tell(explanation: Explanation, why: Why, *, against: str | None = None, limi
             "or nothing in and around it says anything."
         )
     lines = [f"Segment {explanation.segment_id} is {name} (P = {p[name]:.2f})."]
+    if not explanation.reasons:
+        return f"{lines[0]} The map was written without reasons: classify with --reasons 8."
     lines += _told(explanation, name, why, limit)
     other = against or explanation.runner_up
     if other and other != name:

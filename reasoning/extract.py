@@ -69,9 +69,10 @@ class _Extraction:
                     continue
                 for name, factor in MEASURES.items():
                     best = max(stated.strength * factor(way) for way, stated in ways)
-                    proximities[name][i, k] = best if name == "path" else round(best, _DIGITS)
+                    proximities[name][i, k] = round(best, _DIGITS)
                 is_direct = any(way.steps == 0 for way, _ in ways)
                 indications.append(self._indication(*min(ways, key=_best_first), is_direct))
+                proximities["path"][i, k] = indications[-1].proximity  # to the last digit
         if not indications:
             raise EmptyOntologyError(
                 "no feature of the ontology indicates an environment: state for example that "

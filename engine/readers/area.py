@@ -206,6 +206,8 @@ def _to_metres(
 
     inside = shapely.intersection(surveyed, shapely.box(*box))
     parts = [part for part in shapely.get_parts(inside) if part.area > 0]
+    if surveyed.is_empty:
+        return surveyed
     if not parts:
         raise GeometryError(f"{source}: the surveyed area lies outside the bounding box {box}")
     inside = parts[0] if len(parts) == 1 else shapely.MultiPolygon(parts)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +25,10 @@ from symboslam.engine.readers.columns import Columns, FeatureIndex, Floats, Kind
 from symboslam.engine.readers.crs import CoordinateSystem, canonical, coordinate_system
 from symboslam.errors import GeometryError
 
+if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
+
+_LONGEST_ATTRIBUTION = 300
 _SHOWN = 80
 """Characters of an unknown class or tag that the report shows."""
 
@@ -52,8 +57,12 @@ def build(
     box = _box(columns, bbox, system)
     fresh = without_duplicates(columns)
     inside = np.ones(len(columns), bool) if box is None else _inside(columns, box)
+    around = box or _extent(columns, None if surveyed is None else surveyed.bounds)
+    if surveyed is None and columns.find_surveyed is not None:
+        surveyed = columns.find_surveyed(around)
+        notes.extend(_left_out(surveyed, around))
     area = area_of(
-        box or _extent(columns, None if surveyed is None else surveyed.bounds),
+        around,
         system,
         given=box is not None,
         surveyed=surveyed,
@@ -86,8 +95,23 @@ def build(
             outside=int((fresh & ~inside).sum()),
             duplicates=int((~fresh).sum()),
             notes=tuple(notes),
+            attribution=_one_line(columns.attribution),
         ),
     )
+
+
+def _left_out(surveyed: BaseGeometry | None, box: Box) -> list[str]:
+    """A remark on the part of the box that was not looked at, if there is any."""
+    if surveyed is None:
+        return []
+    share = 1 - surveyed.area / ((box[2] - box[0]) * (box[3] - box[1]))
+    return [f"{100 * share:.0f} % of the area holds no object of the file and stays unknown"]
+
+
+def _one_line(text: str) -> str:
+    """A text of a file without line breaks and other characters that do not print."""
+    words = "".join(c if c.isprintable() else " " for c in text).split()
+    return " ".join(words)[:_LONGEST_ATTRIBUTION].rstrip()
 
 
 def _system(columns: Columns, crs: str | None, notes: list[str]) -> CoordinateSystem:

@@ -9,9 +9,12 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from symboslam.engine.landmarks import Box
 from symboslam.engine.readers.crs import DEGREES
 
 if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
+
     from symboslam.reasoning.knowledge import Feature
 
 Floats = NDArray[np.float64]
@@ -67,7 +70,10 @@ class Columns:
         agent: n names of agents or None each; None if there are none at all.
         bbox: the file's area as it stands in the file, unchecked.
         surveyed: the file's ``surveyed`` member as it stands in the file, unchecked.
+        find_surveyed: box in the input's coordinates -> the part of it that was looked at, None for
+            all of it; only for formats whose content tells that.
         notes: remarks for the report.
+        attribution: the file's licence line, unchecked.
     """
 
     source: str
@@ -84,7 +90,9 @@ class Columns:
     agent: Sequence[str | None] | None = None
     bbox: object = None
     surveyed: object = None
+    find_surveyed: Callable[[Box], BaseGeometry | None] | None = None
     notes: tuple[str, ...] = ()
+    attribution: str = ""
 
     def __len__(self) -> int:
         """Number of rows."""

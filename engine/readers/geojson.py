@@ -103,6 +103,7 @@ def from_object(document: object, name: str, knowledge: FeatureIndex) -> Columns
         agent=_texts(agents, "agent", name),
         bbox=collection.get("bbox"),
         surveyed=collection.get("surveyed"),
+        attribution=_attribution(collection),
     )
 
 
@@ -161,6 +162,12 @@ def _crs(collection: Mapping[str, Any], name: str) -> str:
             'write {"type": "name", "properties": {"name": "EPSG:..."}} or leave it out'
         )
     return text
+
+
+def _attribution(collection: Mapping[str, Any]) -> str:
+    """The licence line under the first of its usual names that holds a text."""
+    texts = (collection.get(key) for key in ("attribution", "copyright", "license"))
+    return next((text for text in texts if isinstance(text, str) and text.strip()), "")
 
 
 def _place(index: int) -> str:

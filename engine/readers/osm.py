@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symboslam.engine.landmarks import Box
 from symboslam.engine.readers.columns import (
     Codes,
     Columns,
@@ -17,11 +19,15 @@ from symboslam.engine.readers.columns import (
     Progress,
     Tags,
 )
+from symboslam.engine.readers.osm_ground import ground_near_objects
 from symboslam.engine.readers.source import Source
-from symboslam.errors import LandmarkError, MissingExtraError
+from symboslam.errors import LandmarkError, SymboSlamError
 
 if TYPE_CHECKING:
     import osmium
+    from shapely.geometry.base import BaseGeometry
+
+_ATTRIBUTION = "\N{COPYRIGHT SIGN} OpenStreetMap contributors, ODbL 1.0"
 
 _LAND_USE = frozenset({"landuse", "place", "boundary"})
 """Keys that on an area state how ground is used or what it is called, not what stands there."""
@@ -66,7 +72,7 @@ def read(source: Source, knowledge: FeatureIndex, progress: Progress) -> Columns
 
     Raises:
         LandmarkError: the file is empty, damaged or not OpenStreetMap data.
-        MissingExtraError: pyosmium is not installed.
+        SymboSlamError: pyosmium, which is installed with this package, cannot be loaded.
     """
     progress("reading", 0.0)
     head = source.head()
@@ -75,18 +81,27 @@ def read(source: Source, knowledge: FeatureIndex, progress: Progress) -> Columns
     try:
         import osmium
     except ImportError as error:
-        raise MissingExtraError("osmium", "osm") from error
+        raise SymboSlamError(
+            f"{source.name}: the package osmium, which reads OpenStreetMap files, cannot be loaded "
+            f"({error}): pip install --force-reinstall osmium"
+        ) from error
     suffix = _format(head)
     packed: Any = (
         osmium.io.FileBuffer(source.data, suffix)
         if source.path is None
         else osmium.io.File(str(source.path), suffix)
     )
-    try:
+    with _guard(source.name):
         return _read(packed, source.name, knowledge.tag_keys)
+
+
+@contextmanager
+def _guard(name: str) -> Iterator[None]:
+    try:
+        yield
     except (RuntimeError, OSError) as error:
         problem = f"this is not readable OpenStreetMap data, or it is cut short ({error})"
-        raise LandmarkError(problem, source=source.name) from error
+        raise LandmarkError(problem, source=name) from error
 
 
 def _format(head: bytes) -> str:
@@ -118,6 +133,11 @@ def _read(packed: Any, name: str, keys: frozenset[str]) -> Columns:
         notes.append("the file's own bounding box does not fit its content and is not used")
         box = None
     kinds: list[Kind] = [("", tags) for tags in codes]
+
+    def find_surveyed(area: Box) -> BaseGeometry | None:
+        with _guard(name):
+            return ground_near_objects(packed, area)
+
     return Columns(
         source=name,
         x=x,
@@ -128,7 +148,9 @@ def _read(packed: Any, name: str, keys: frozenset[str]) -> Columns:
         crs_from="format",
         id=ids,
         bbox=box,
+        find_surveyed=find_surveyed,
         notes=tuple(notes),
+        attribution=_ATTRIBUTION,
     )
 
 

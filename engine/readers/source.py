@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any, BinaryIO, cast
 
-from symboslam.errors import LandmarkError
+from symboslam.errors import InputError, LandmarkError
 
 _GZIP = b"\x1f\x8b"
 
@@ -86,10 +86,18 @@ def open_source(source: str | Path | IO[Any]) -> Source:
 
     Raises:
         LandmarkError: no such file, or it is a folder.
+        InputError: this is none of these.
     """
     if not isinstance(source, str | Path):
+        if not callable(getattr(source, "read", None)):
+            raise InputError(
+                f"landmarks cannot be read from a {type(source).__name__}: give a path, an open "
+                "stream or a GeoJSON document as a dict"
+            )
         return _drain(source, str(getattr(source, "name", "") or "stream"))
     if source == "-":
+        if sys.stdin is None:
+            raise InputError("there is no standard input: name a landmark file")
         return _drain(getattr(sys.stdin, "buffer", sys.stdin), "standard input")
     path = Path(source)
     if path.is_file():
@@ -105,7 +113,11 @@ def open_source(source: str | Path | IO[Any]) -> Source:
 def _drain(stream: IO[Any], name: str) -> Source:
     with Source(name).guard():
         data = stream.read()
-    return Source(name, data=data if isinstance(data, bytes) else data.encode(errors="replace"))
+    if isinstance(data, str):
+        data = data.encode(errors="replace")
+    if not isinstance(data, bytes):
+        raise InputError(f"{name}: its read() gives a {type(data).__name__}, not bytes or text")
+    return Source(name, data=data)
 
 
 def sniff(head: bytes) -> str:

@@ -195,6 +195,7 @@ class Content:
             "outside": report.outside,
             "duplicates": report.duplicates,
             "notes": list(report.notes),
+            "attribution": report.attribution,
         }
 
 

@@ -46,6 +46,8 @@ def _collection(environment_map: EnvironmentMap, options: WriteOptions) -> Itera
     head = {"type": "FeatureCollection", "bbox": content.bbox}
     if not environment_map.landmarks.frame.geographic:
         head["crs_units"] = "m"
+    if environment_map.landmarks.report.attribution:
+        head["attribution"] = environment_map.landmarks.report.attribution
     yield _json(head)[:-1] + ',"features":[\n'
     names = [_json(name) for name in content.environment_names]
     distribution = "{" + ",".join(f"{n.replace('%', '%%')}:%.6g" for n in names) + "}"

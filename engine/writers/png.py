@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from pathlib import PurePath
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 
 PIXELS = (1600, 1200)
 DPI = 100
+_LINE = 200
+"""Characters that fit below the map."""
 OUTLINED = 50_000
 """Up to this many segments the borders between environments are drawn."""
 
@@ -56,7 +59,8 @@ def write(environment_map: EnvironmentMap, stream: BinaryIO, options: WriteOptio
     title = title_of(environment_map)
     figure.text(0.03, 0.945, title, size=21, weight="bold", color=INK, parse_math=False)
     figure.text(0.03, 0.915, _subtitle(environment_map), size=12, color="#555", parse_math=False)
-    figure.text(0.03, 0.025, _footer(environment_map), size=10, color="#777", parse_math=False)
+    footer = _footer(environment_map)
+    figure.text(0.03, 0.043, footer, size=10, color="#777", va="top", parse_math=False)
     with warnings.catch_warnings():  # a name in a script that the font lacks shows as boxes
         warnings.filterwarnings("ignore", "Glyph .* missing from font")
         metadata = {"Title": title, "Software": f"SymboSLAM {__version__}"}
@@ -82,6 +86,8 @@ def _subtitle(m: EnvironmentMap) -> str:
 
 
 def _footer(m: EnvironmentMap) -> str:
+    """The area, and below it whose data are shown, in at most two lines."""
+    report = m.landmarks.report
     west, south, east, north = m.landmarks.bbox
     x, y = m.landmarks.frame.from_metres([west, east], [south, north])
     if m.landmarks.frame.geographic:
@@ -90,7 +96,7 @@ def _footer(m: EnvironmentMap) -> str:
         area = f"{ends[0]} to {ends[1]}, {ends[2]} to {ends[3]} (WGS 84)"
     else:
         area = f"x {x[0]:,.0f} to {x[1]:,.0f} m, y {y[0]:,.0f} to {y[1]:,.0f} m (local metres)"
-    return f"{area} · SymboSLAM {__version__}"
+    return "\n".join([f"{area} · SymboSLAM {__version__}", *wrap(report.attribution, _LINE)])
 
 
 def _frame(axes: Axes, m: EnvironmentMap) -> None:

@@ -46,6 +46,7 @@ def provenance(records: Records, ended: datetime | None) -> Iterator[Record]:
             (s.iri(PROV + "wasGeneratedBy"), [s.own("run")]),
             (s.iri(DCTERMS + "spatial"), [[a(GEO + "Feature"), records.geometry(area)]]),
             (s.iri(SL + "considers"), list(records.environments)),
+            *_rights(records),
         ],
     )
     agent = s.iri(SOFTWARE + __version__)
@@ -130,6 +131,7 @@ def _landmark_set(records: Records) -> Properties:
     ]
     if report.source:
         found.append((s.iri(DCTERMS + "source"), [s.text(report.source)]))
+    found += _rights(records)
     left = [("not in the ontology", name, n) for name, n in sorted(report.unknown.items())]
     left += [("outside the area", "", report.outside), ("duplicate", "", report.duplicates)]
     for cause, what, count in left:
@@ -145,6 +147,18 @@ def _landmark_set(records: Records) -> Properties:
     if report.notes:
         found.append((s.iri(RDFS + "comment"), [s.text(note, "en") for note in report.notes]))
     return found
+
+
+def _rights(records: Records) -> Properties:
+    """Whose data the landmarks are; the map that was made of them says so too."""
+    s, line = records.syntax, records.map.landmarks.report.attribution
+    if not line:
+        return []
+    statement: Properties = [
+        records.a(DCTERMS + "RightsStatement"),
+        (s.iri(RDFS + "label"), [s.text(line)]),
+    ]
+    return [(s.iri(DCTERMS + "rights"), [statement])]
 
 
 def _agents(agents: NDArray[Any] | None) -> list[str]:

@@ -96,6 +96,14 @@ def test_explain_reads_what_classify_wrote(
     assert "Why not Industrial" in against.out
 
 
+def test_a_map_without_reasons_says_how_to_get_them(run: Any, town: Path, tmp_path: Path) -> None:
+    out = tmp_path / "map.geojson"
+    assert run("classify", town, "--out", out, "--reasons", 0, "--cells", 1).code == 0
+    told = run("explain", out, "0-0-0").out
+    assert "--reasons" in told
+    assert "Why not" not in told
+
+
 def test_feature_says_what_how_strongly_and_why(run: Any) -> None:
     told = run("feature", "house")
     assert told.code == 0

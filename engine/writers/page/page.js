@@ -72,7 +72,7 @@ function fillNotices() {
   }
   if (outside) add(`${many(outside, "landmark")} outside the area.`);
   if (duplicates) add(`${many(duplicates, "landmark")} given more than once.`);
-  for (const note of notes) if (!/^\s*attribution\s*:/i.test(note)) add(note);
+  for (const note of notes) add(note);
   if (!data.raw.landmarks) add(`${many(data.raw.count, "landmark")} are too many to draw; the segments rest on all of them.`);
   $("notices").hidden = !body.children.length;
 }

@@ -57,7 +57,7 @@ def payload(environment_map: EnvironmentMap, reasons: int) -> dict[str, Any]:
     return {
         "title": _title(environment_map),
         "facts": _facts(environment_map),
-        "attribution": _attribution(environment_map),
+        "attribution": landmarks.report.attribution,
         "config": {k: _plain(v) for k, v in environment_map.config.items()},
         "report": {
             "unknown": landmarks.report.unknown.most_common(),
@@ -120,18 +120,6 @@ def _facts(environment_map: EnvironmentMap) -> dict[str, str]:
         "Ontology": knowledge.source,
         "Ontology hash": knowledge.source_hash,
     }
-
-
-def _attribution(environment_map: EnvironmentMap) -> str:
-    """The licence line of the input: a setting, or a note of the reader that begins like one."""
-    given = environment_map.config.get("attribution")
-    if given:
-        return str(given)
-    for note in environment_map.landmarks.report.notes:
-        head, _, line = note.partition(":")
-        if head.strip().lower() == "attribution" and line.strip():
-            return line.strip()
-    return ""
 
 
 def _bounds(environment_map: EnvironmentMap) -> tuple[float, float, float, float]:

@@ -166,6 +166,6 @@ def summarise(found: EnvironmentMap, targets: list[str]) -> None:
         lines.append(f"{report.outside} outside the bounding box were left out")
     if report.duplicates:
         lines.append(f"{report.duplicates} exact duplicate(s) left out")
-    lines += report.notes
+    lines += [*report.notes, *found.knowledge.notes]
     lines += [f"wrote {Path(t).resolve()}" for t in targets if t != "-"]
     show(result, "\n".join(lines), error="-" in targets)

@@ -68,8 +68,10 @@ def hostile(make: MakeMap) -> EnvironmentMap:
         side=2,
         ids=[NASTY, "\"'><svg onload=x>"],
         segment_ids=[f"{i}{NASTY}" for i in range(4)],
-        config={"title": NASTY, "attribution": NASTY, "note": NASTY},
-        report=ReadReport(NASTY, 2, Counter({NASTY: 3}), 0, 0, (NASTY, "\ud800 half a pair")),
+        config={"title": NASTY, "note": NASTY},
+        report=ReadReport(
+            NASTY, 2, Counter({NASTY: 3}), 0, 0, (NASTY, "\ud800 half a pair"), NASTY
+        ),
     )
     knowledge = made.knowledge
     first, *others = made.environments
@@ -322,17 +324,18 @@ def test_metres_have_no_degrees(flat: EnvironmentMap) -> None:
 
 
 def test_facts_and_report(make: MakeMap) -> None:
-    notes = ("Attribution: © OpenStreetMap contributors, ODbL 1.0", "Two lines were empty.")
+    line, notes = "© OpenStreetMap contributors, ODbL 1.0", ("Two lines were empty.",)
     made = make(
         np.array([[1.0, 1.0]]),
         ["House"],
         bbox=(0.0, 0.0, 10.0, 10.0),
         side=1,
-        report=ReadReport("maps/old_town.geojson", 1, Counter({"shop=moon": 2}), 4, 1, notes),
+        report=ReadReport("maps/old_town.geojson", 1, Counter({"shop=moon": 2}), 4, 1, notes, line),
     )
     data = payload(made, 5)
     assert data["title"] == "Old town"
-    assert data["attribution"] == "© OpenStreetMap contributors, ODbL 1.0"
+    assert data["attribution"] == line
+    assert data["report"]["notes"] == ["Two lines were empty."]
     assert data["facts"]["Source"] == "maps/old_town.geojson"
     assert data["facts"]["Ontology hash"] == "5eed" * 16
     assert data["report"]["unknown"] == [("shop=moon", 2)]

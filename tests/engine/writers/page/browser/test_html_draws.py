@@ -84,7 +84,8 @@ def test_hostile_words_stay_words(browser: Browser, save: Save, make: MakeMap) -
         side=2,
         ids=[NASTY, "\"'><svg onload=x>"],
         segment_ids=[f"{i}{NASTY}" for i in range(4)],
-        config={"title": NASTY, "attribution": NASTY},
+        config={"title": NASTY},
+        report=ReadReport(attribution=NASTY),
     )
     browser.open(save(made))
     assert browser.text("h1") == NASTY
