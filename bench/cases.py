@@ -120,10 +120,10 @@ def growth(sizes: Sequence[int]) -> str:
             side = CELL_M * round(np.sqrt(n / LANDMARKS_PER_KM2) * 1000 / CELL_M / 8) * 8
             source, out = Path(folder) / f"{n}.csv", Path(folder) / f"{n}.geojson"
             _scatter(source, n, side)
-            run = _classify(
-                source, out, "--crs", "m", "--bbox", f"0,0,{side},{side}",
-                "--cells", str(round(side / CELL_M)),
-            )  # fmt: skip
+            options = ["--crs", "m", "--bbox", f"0,0,{side},{side}"]
+            options += ["--cells", str(round(side / CELL_M))]
+            runs = [_classify(source, out, *options) for _ in range(3)]
+            run = sorted(runs, key=lambda one: one.seconds)[1]
             times = run.seconds / before[1] / (n / before[0]) if before else None
             rows.append(
                 [f"{n:,}", f"{side / 1000:g} km", f"{run.seconds:.2f}", f"{run.peak_mb:.0f}",
@@ -137,7 +137,7 @@ def growth(sizes: Sequence[int]) -> str:
     )  # fmt: skip
     return (
         "## Growth (whole process `symboslam classify`, CSV to GeoJSON, `default` profile)\n\n"
-        f"{LANDMARKS_PER_KM2:.0f} landmarks per km2, cells of {CELL_M:.0f} m.\n\n"
+        f"{LANDMARKS_PER_KM2:.0f} landmarks per km2, cells of {CELL_M:.0f} m, medians of 3.\n\n"
         + table(head, rows)
     )
 

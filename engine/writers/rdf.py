@@ -95,4 +95,4 @@ def _fingerprint(m: EnvironmentMap) -> str:
     columns = (marks.feature, marks.x, marks.y, marks.confidence, marks.id, m.segment_id, m.label)
     for column in columns:
         found.update(np.ascontiguousarray(column).tobytes())
-    return found.hexdigest()[:32]
+    return found.hexdigest()[:16]

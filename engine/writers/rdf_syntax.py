@@ -149,7 +149,7 @@ class NQuads(Syntax):
     def statements(self, graph: str, subject: str, properties: Properties) -> str:
         """Lines; blank nodes are named after their subject, so that files can be compared."""
         lines: list[str] = []
-        node = f"_:b{hashlib.sha256(subject.encode()).hexdigest()[:16]}n"
+        node = f"_:b{hashlib.sha256(subject.encode()).hexdigest()[:12]}n"
         count = 0
 
         def add(subject: str, properties: Properties) -> None:

@@ -43,9 +43,7 @@ def baselines(monkeypatch: pytest.MonkeyPatch) -> Any:
 
 
 @pytest.mark.parametrize("name", ["airport", "city", "prattville"])
-def test_every_segment_has_the_evidence_of_the_authors_algorithm(
-    baselines: Any, name: str
-) -> None:
+def test_every_segment_has_the_evidence_of_the_authors_algorithm(baselines: Any, name: str) -> None:
     area = next(a for a in baselines.load("dev") if a["name"] == name)
     xy, confidence, _, classes = baselines.landmarks(area)
     keep = [i for i, c in enumerate(classes) if c is not None]

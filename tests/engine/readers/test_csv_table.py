@@ -64,6 +64,7 @@ def test_degrees_by_option(table: Read) -> None:
     landmarks = table("class,x,y\nHouse,9,47\nHouse,10,48\n", crs="EPSG:4326")
     assert landmarks.frame.origin == (9.5, 47.5)
     assert landmarks.report.notes == ()
+    assert landmarks.report.attribution == ""
 
 
 def test_unused_columns_are_noted(table: Read) -> None:

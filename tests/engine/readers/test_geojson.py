@@ -39,6 +39,22 @@ def degrees(*features: Any, **members: Any) -> dict[str, Any]:
 # What is taken
 
 
+@pytest.mark.parametrize(
+    ("members", "line"),
+    [
+        ({}, ""),
+        ({"attribution": "(c) A", "license": "B"}, "(c) A"),
+        ({"attribution": " ", "copyright": "© A"}, "© A"),
+        ({"license": "CC0"}, "CC0"),
+        ({"attribution": ["A"], "license": {"name": "B"}, "copyright": 3}, ""),
+        ({"attribution": " A\n\x00B\u202e C\ud800\t"}, "A B C"),
+        ({"attribution": "x" * 301}, "x" * 300),
+    ],
+)
+def test_attribution(read: Read, members: dict[str, Any], line: str) -> None:
+    assert read(metres(point(), **members)).report.attribution == line
+
+
 def test_columns_of_a_metric_file(read: Read, names: Callable[[LandmarkMap], list[str]]) -> None:
     landmarks = read(
         metres(

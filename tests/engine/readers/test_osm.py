@@ -15,7 +15,7 @@ import pytest
 
 from symboslam.engine.landmarks import LandmarkMap
 from symboslam.engine.readers import osm
-from symboslam.errors import GeometryError, LandmarkError, MissingExtraError
+from symboslam.errors import GeometryError, LandmarkError, SymboSlamError
 
 Read = Callable[..., LandmarkMap]
 Write = Callable[[str, Any], Any]
@@ -72,6 +72,7 @@ def test_nodes_and_areas(read: Read, write: Write, names: Names) -> None:
         way(22, HOLE, building="yes"),
     )
     landmarks = read(write("map.osm", text), bbox=BOX)
+    assert landmarks.report.attribution == "© OpenStreetMap contributors, ODbL 1.0"
     assert dict(zip(landmarks.id.tolist(), names(landmarks), strict=True)) == {
         "n11": "Tree", "w21": "House", "w22": "Building",
     }  # fmt: skip
@@ -269,5 +270,5 @@ def test_empty_file(read: Read, write: Write) -> None:
 
 def test_without_pyosmium(read: Read, write: Write, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "osmium", None)
-    with pytest.raises(MissingExtraError, match="osmium is not installed"):
+    with pytest.raises(SymboSlamError, match=r"map\.osm: the package osmium, .* cannot be loaded"):
         read(write("map.osm", xml(*TREES)))

@@ -125,6 +125,30 @@ def test_a_pipe_in_the_file_system(read: Read, tmp_path: Path) -> None:
     writer.join()
 
 
+@pytest.mark.parametrize("source", [None, 3, b"class,x,y", ["a.csv"]])
+def test_no_source_at_all(read: Read, source: Any) -> None:
+    kind = type(source).__name__
+    with pytest.raises(InputError, match=f"cannot be read from a {kind}: give a path, an open"):
+        read(source)
+
+
+def test_no_standard_input(read: Read, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "stdin", None)
+    with pytest.raises(InputError, match="there is no standard input"):
+        read("-")
+
+
+def test_a_stream_of_something_else(read: Read) -> None:
+    class Odd:
+        def read(self) -> None:
+            """Nothing is there yet: what a stream that does not block says."""
+
+    with pytest.raises(
+        InputError, match=r"stream: its read\(\) gives a NoneType, not bytes or text"
+    ):
+        read(Odd())
+
+
 def test_an_empty_stream(read: Read) -> None:
     with pytest.raises(LandmarkError, match="stream: the file is empty"):
         read(io.BytesIO())

@@ -97,6 +97,13 @@ def test_geographic_coordinates(make_town: Make) -> None:
     assert {round(v, 8) for v in corners.ravel()} == set(corners.ravel())
 
 
+def test_attribution(make_town: Make) -> None:
+    assert "attribution" not in to_geojson(make_town())
+    line = '© "Contributors"'
+    collection = to_geojson(make_town(report=ReadReport(attribution=line)))
+    assert collection["attribution"] == collection["symboslam"]["report"]["attribution"] == line
+
+
 def test_neighbours_share_their_corners(make_town: Make) -> None:
     features = to_geojson(make_town(Frame.around(-122.4, 37.8)))["features"]
     corners = {tuple(c) for f in features for c in f["geometry"]["coordinates"][0]}
@@ -114,6 +121,7 @@ def test_what_the_map_was_made_of(town: EnvironmentMap) -> None:
         "outside": 1,
         "duplicates": 0,
         "notes": ["A note."],
+        "attribution": "",
     }
     assert about["environments"]["NonUrban"] == {
         "iri": "https://w3id.org/symboslam#NonUrban",

@@ -89,6 +89,18 @@ def test_any_name_can_be_a_title(make_town: Make, tmp_path: Path, name: str) -> 
     picture(make_town(report=ReadReport(name)), tmp_path)
 
 
+def test_attribution_stands_below_the_map(make_town: Make, tmp_path: Path) -> None:
+    """Ink below the map: without a line, with one, with the longest (two lines, inside)."""
+    pictures = [
+        picture(make_town(report=ReadReport("a", attribution=line)), tmp_path)
+        for line in ("", "© Contributors", "wide words " * 27)
+    ]
+    ink = [(p[1140:] < 200).any(-1) for p in pictures]
+    rows = [np.flatnonzero(i.any(1)).max() for i in ink]
+    assert rows[0] < rows[1] < rows[2] < 58
+    assert not ink[2][:, -10:].any()
+
+
 @pytest.mark.parametrize(
     ("source", "title"),
     [

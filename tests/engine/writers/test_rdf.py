@@ -15,11 +15,12 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from rdflib import RDF, XSD, Dataset, Graph, Literal, Namespace, URIRef
+from rdflib import RDF, RDFS, XSD, Dataset, Graph, Literal, Namespace, URIRef
 from rdflib.compare import isomorphic
 
 from symboslam.engine.environment_map import EnvironmentMap
 from symboslam.engine.frame import Frame
+from symboslam.engine.landmarks import ReadReport
 from symboslam.engine.writers import write_map
 from symboslam.engine.writers.rdf import base_of
 from symboslam.engine.writers.rdf_files import read_graph
@@ -62,6 +63,15 @@ def test_nquads_have_a_graph_for_each_topic(town: EnvironmentMap, tmp_path: Path
     assert graphs == {f"<{BASE}{topic}>" for topic in topics}
     (house,) = (x for x in lines if x.startswith(f"<{BASE}landmark/n0> <{RDF.type}> <{SL.House}>"))
     assert house.endswith(f"<{BASE}landmarks> .")
+
+
+@pytest.mark.parametrize("line", ["", '© "Contributors", ODbL 1.0'])
+def test_rights(make_town: Make, tmp_path: Path, line: str) -> None:
+    graph = graph_of(make_town(report=ReadReport(attribution=line)), tmp_path, "ttl")
+    for name in ("map", "landmarks"):
+        statements = list(graph.objects(URIRef(BASE + name), DCTERMS.rights))
+        labels = [str(graph.value(statement, RDFS.label)) for statement in statements]
+        assert labels == ([line] if line else [])
 
 
 def test_landmarks(graph: Graph) -> None:
@@ -192,7 +202,7 @@ def test_equal_maps_give_equal_files(make_town: Make, tmp_path: Path) -> None:
 
 def test_the_base_depends_on_the_content(make_town: Make) -> None:
     plain = base_of(make_town())
-    assert re.fullmatch(r"https://w3id\.org/symboslam/map/[0-9a-f]{32}/", plain)
+    assert re.fullmatch(r"https://w3id\.org/symboslam/map/[0-9a-f]{16}/", plain)
     confidence = np.array([1.0, 0.9, 0.5, 0.1, 0.7])
     others = [make_town(confidence=confidence), make_town(Frame.around(9.52, 47.14))]
     assert len({plain, *map(base_of, others)}) == 3

@@ -11,6 +11,7 @@ import pytest
 from symboslam.engine.environment_map import EnvironmentMap
 from symboslam.engine.explanation import Reason
 from symboslam.engine.writers import write_map
+from symboslam.engine.writers.rdf_index import read_index
 from symboslam.engine.writers.stored import StoredMap, read_map
 from symboslam.errors import InputError, UnknownNameError
 
@@ -99,7 +100,8 @@ def test_geojson_of_others_needs_only_the_contract(tmp_path: Path) -> None:
         ("map.geojson", '{"features": [{"properties": null}]}', "no environment map"),
         ("map.geojson", '{"features": [{"properties": {"class": "House"}}]}', "segment_id"),
         ("map.ttl", "<a> <b", "does not parse"),
-        ("map.nq", "<a> .", "does not parse"),
+        ("map.nq", "# a map\n\n<a> .", "line 3 is no statement"),
+        ("map.nq", "", "holds no sl:EnvironmentMap"),
         ("map.ttl", "", "holds no sl:EnvironmentMap"),
         ("map.png", "", r"only maps in \.geojson"),
     ],
@@ -110,15 +112,40 @@ def test_files_that_are_no_maps(tmp_path: Path, name: str, content: str, problem
         read_map(tmp_path / name)
 
 
+def test_nquads_of_others(tmp_path: Path) -> None:
+    """Whatever the grammar allows: comments, tabs, no spaces, escapes, no graph."""
+    text = (
+        '# comment\n<urn:a>\t<urn:p>"x\\"\\u00e9\\U0001F600\\n"@en-GB.\n\n'
+        '_:b.1 <urn:p> "1"^^<urn:t> _:g . # more\n<urn:a><urn:q><urn:\\u00e9>.\n'
+    )
+    (tmp_path / "other.nq").write_text(text.replace("<urn:\\u00e9>", "<urn:é>"), encoding="utf-8")
+    index = read_index(tmp_path / "other.nq")
+    assert index.one("urn:a", "urn:p") == 'x"é😀\n'
+    assert index.all("_:b.1", "urn:p") == ["1"]
+    assert index.subjects("urn:q", "urn:é") == ["urn:a"]
+    assert index.one("urn:a", "urn:r") is None
+
+
+def test_nquads_that_are_no_text(tmp_path: Path) -> None:
+    (tmp_path / "map.nq").write_bytes(b"\xff\xfe")
+    with pytest.raises(InputError, match="not UTF-8"):
+        read_map(tmp_path / "map.nq")
+
+
 @pytest.mark.parametrize("ending", ENDINGS)
 def test_missing_file(tmp_path: Path, ending: str) -> None:
     with pytest.raises(InputError, match="cannot be read: No such file"):
         read_map(tmp_path / f"map.{ending}")
 
 
-def test_incomplete_rdf(town: EnvironmentMap, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [("sl:count 2", 'sl:count "two"'), ("sl:environment sl:Commercial ;", "")],
+)
+def test_incomplete_rdf(town: EnvironmentMap, tmp_path: Path, old: str, new: str) -> None:
     write_map(town, tmp_path / "map.ttl")
     text = (tmp_path / "map.ttl").read_text()
-    (tmp_path / "map.ttl").write_text(text.replace("sl:count 2", 'sl:count "two"'))
+    assert old in text
+    (tmp_path / "map.ttl").write_text(text.replace(old, new))
     with pytest.raises(InputError, match="no complete environment map"):
         read_map(tmp_path / "map.ttl")

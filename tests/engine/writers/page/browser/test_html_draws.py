@@ -13,6 +13,7 @@ import pytest
 import shapely
 
 from symboslam.engine.environment_map import EnvironmentMap
+from symboslam.engine.landmarks import ReadReport
 
 if TYPE_CHECKING:
     from tests.engine.writers.page.browser.conftest import Browser

@@ -1,0 +1,1 @@
+"""The numeric side: landmark maps, evidence, segmentation, explanations, readers and writers."""
