@@ -11,7 +11,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import shapely
@@ -22,10 +23,8 @@ from symboslam.engine.grid import Cells, Grid
 from symboslam.engine.landmarks import LandmarkMap
 from symboslam.engine.settings import Settings
 
-if TYPE_CHECKING:
-    from scipy.sparse import csr_array
-
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 HECTARE = 10_000.0
 REACH = 3.5
 """Standard deviations after which a kernel is cut off (it holds 99.95 % of a landmark by then)."""
@@ -35,7 +34,81 @@ CROWDING_SHARE = 0.1
 ABSENCE_LEAST, ABSENCE_MOST = 0.05, 0.6
 """Evidence of unmarked ground: this share of the map's mean crowding, between these bounds."""
 BLOCK = 100_000
-"""Landmarks that are spread over the cells at a time."""
+"""Landmarks that are worked on at a time."""
+
+_erf = np.frompyfunc(math.erf, 1, 1)  # as exact as the C library, and needs no further import
+
+
+@dataclass(frozen=True)
+class Bands:
+    """How the kernels of n landmarks lie over the finest columns (or rows) of a grid.
+
+    Attributes:
+        first: (n,) first column that a kernel reaches.
+        below: (n, b + 1) share of the kernel before column ``first + j``, cut off at both ends.
+    """
+
+    first: Ints
+    below: Floats
+
+    @classmethod
+    def over(cls, positions: Floats, origin: float, step: float, cells: int, sigma: float) -> Bands:
+        """The bands of Gaussians at ``positions`` (metres) with standard deviation ``sigma``."""
+        width = min(math.ceil(2 * REACH * sigma / step) + 1, cells)
+        first = np.floor((positions - REACH * sigma - origin) / step).astype(np.int64)
+        first = np.clip(first, 0, cells - width)
+        edges = origin + (first[:, None] + np.arange(width + 1)) * step
+        below = _erf((edges - positions[:, None]) / (sigma * math.sqrt(2)))
+        return cls(first, np.asarray(below, np.float64) / 2)
+
+    @classmethod
+    def joined(cls, parts: list[Bands], order: Ints) -> Bands:
+        """Several bands as one, in another order; narrow ones are filled up with nothing."""
+        width = max(part.below.shape[1] for part in parts)
+        wide = [
+            np.pad(part.below, ((0, 0), (0, width - part.below.shape[1])), mode="edge")
+            for part in parts
+        ]
+        first = np.concatenate([part.first for part in parts])
+        return cls(first[order], np.concatenate(wide)[order])
+
+    def shares(self) -> Floats:
+        """(n, b) share of each kernel in each column of its band."""
+        return np.diff(self.below, axis=1)
+
+    def between(self, chosen: Ints, start: int, stop: int) -> Floats:
+        """(m,) share of the chosen kernels in columns ``start`` to ``stop`` (not included)."""
+        last, first = self.below.shape[1] - 1, self.first[chosen]
+        high, low = (np.minimum(np.maximum(edge - first, 0), last) for edge in (stop, start))
+        return np.asarray(self.below[chosen, high] - self.below[chosen, low])
+
+
+@dataclass(frozen=True)
+class Kernels:
+    """The kernels of some landmarks.
+
+    Attributes:
+        landmark: (n,) their positions in the map.
+        columns: their bands from west to east.
+        rows: their bands from south to north.
+    """
+
+    landmark: Ints
+    columns: Bands
+    rows: Bands
+
+    @classmethod
+    def joined(cls, parts: list[Kernels]) -> Kernels:
+        """Several as one, sorted by the first column that they reach."""
+        landmark = np.concatenate([part.landmark for part in parts])
+        order = np.argsort(np.concatenate([p.columns.first for p in parts]), kind="stable")
+        columns = Bands.joined([part.columns for part in parts], order)
+        return cls(landmark[order], columns, Bands.joined([p.rows for p in parts], order))
+
+    def near(self, start: int, stop: int) -> Ints:
+        """Which of them may reach columns ``start`` to ``stop``; they must be sorted."""
+        width = self.columns.below.shape[1] - 1
+        return np.arange(*np.searchsorted(self.columns.first, [start - width + 1, stop]))
 
 
 class FieldEvidence(Evidence):
@@ -65,7 +138,7 @@ class FieldEvidence(Evidence):
         self._xy, self._grid, self._settings = landmarks.xy, grid, settings
         self.bandwidth = bandwidth
         width = np.maximum(site, bandwidth)
-        self._kernels = [(float(w), np.flatnonzero(width == w)) for w in np.unique(width)]
+        self._kernels = [self._kernels_of(np.flatnonzero(width == w), w) for w in np.unique(width)]
         loss = settings.dissimilarity * weight * dissimilarity(self._xy, weight, CLOSE * bandwidth)
         size = (width / bandwidth)[:, None] ** 2
         self._plain, self._loss = weight * size, loss * size
@@ -76,37 +149,43 @@ class FieldEvidence(Evidence):
         self._inside = np.zeros((grid.cells, grid.cells), np.int64)
         np.add.at(self._inside, grid.finest_of(landmarks.x, landmarks.y), 1)
 
-    def _masses(self, positions: Floats, axis: int, sigma: float) -> csr_array:
-        """(n, cells) how much of each landmark's kernel lies in each column (row) of cells."""
-        from scipy.sparse import csr_array
-        from scipy.special import ndtr
+    def _kernels_of(self, landmark: Ints, sigma: float) -> Kernels:
+        columns, rows = (
+            Bands.over(
+                self._xy[landmark, axis],
+                self._grid.box[axis],
+                self._grid.step[axis],
+                self._grid.cells,
+                float(sigma),
+            )
+            for axis in (0, 1)
+        )
+        return Kernels(landmark, columns, rows)
 
-        origin, step, cells = self._grid.box[axis], self._grid.step[axis], self._grid.cells
-        first = np.floor((positions - REACH * sigma - origin) / step).astype(np.int64)
-        width = math.ceil(2 * REACH * sigma / step) + 1
-        first = np.clip(first, 0, max(cells - width, 0))
-        width = min(width, cells)
-        edges = origin + (first[:, None] + np.arange(width + 1)) * step
-        mass = np.diff(ndtr((edges - positions[:, None]) / sigma), axis=1)
-        index = (first[:, None] + np.arange(width)).ravel()
-        starts = np.arange(len(positions) + 1) * width
-        return csr_array((mass.ravel(), index, starts), shape=(len(positions), cells))
+    @cached_property
+    def _all_kernels(self) -> Kernels:
+        return Kernels.joined(self._kernels)
 
     def _spread(self, weight: Floats) -> Floats:
         """(cells, cells, K) the mean of the field over each finest cell, without the ground."""
-        from scipy.sparse import diags_array
-
-        cells, width, height = self._grid.cells, *self._grid.step
-        field = np.zeros((cells, cells, weight.shape[1]))
+        cells, (width, height) = self._grid.cells, self._grid.step
+        field = np.zeros((weight.shape[1], cells * cells))
         used = np.flatnonzero(weight.any(0))
-        for sigma, chosen in self._kernels:
-            for start in range(0, len(chosen), BLOCK):
-                part = chosen[start : start + BLOCK]
-                columns = self._masses(self._xy[part, 0], 0, sigma)
-                rows = self._masses(self._xy[part, 1], 1, sigma).T.tocsr()
-                for k in used:
-                    field[:, :, k] += (rows @ diags_array(weight[part, k]) @ columns).toarray()
-        return field * (HECTARE / (width * height))
+        for kernel in self._kernels:
+            east, north = kernel.columns.shares(), kernel.rows.shares()
+            across = np.arange(east.shape[1])
+            for start in range(0, len(east), BLOCK):
+                part = slice(start, start + BLOCK)
+                weights = weight[kernel.landmark[part]]
+                corner = kernel.rows.first[part] * cells + kernel.columns.first[part]
+                for row in range(north.shape[1]):
+                    index = (corner[:, None] + (row * cells + across)).ravel()
+                    share = east[part] * north[part, row, None]
+                    for k in used:
+                        amount = (share * weights[:, k, None]).ravel()
+                        field[k] += np.bincount(index, amount, cells * cells)
+        per_hectare = HECTARE / (width * height)
+        return np.moveaxis(field.reshape(-1, cells, cells), 0, 2) * per_hectare
 
     def of(self, cells: Cells) -> Floats:
         """(m, K) mean of the field over each cell, per hectare."""
@@ -127,49 +206,26 @@ class FieldEvidence(Evidence):
         certain = normalised(evidence).max(1, initial=0) >= self._settings.threshold
         return np.asarray((agree & bare)[cells.row, cells.column] | certain)
 
-    def _coverage(self, cells: Cells) -> csr_array:
-        """(m, n) share of each landmark's kernel in each cell, per hectare of the cell."""
-        from scipy.sparse import csr_array, diags_array
-
-        side, span = self._grid.cells, np.asarray(self._grid.span(cells.depth))
-
-        def members(index: NDArray[np.int64]) -> csr_array:
-            """(m, side) 1 for the columns (rows) of finest cells inside each cell."""
-            starts = np.concatenate([[0], np.cumsum(span)])
-            within = np.arange(starts[-1]) - np.repeat(starts[:-1], span)
-            return csr_array(
-                (np.ones(starts[-1]), np.repeat(index * span, span) + within, starts),
-                shape=(len(cells), side),
-            )
-
-        rows, columns = members(cells.row), members(cells.column)
-        width, height = self._grid.step
-        total = csr_array((len(cells), len(self._xy)))
-        for sigma, chosen in self._kernels:
-            north = rows @ self._masses(self._xy[chosen, 1], 1, sigma).T
-            east = columns @ self._masses(self._xy[chosen, 0], 0, sigma).T
-            both = north.multiply(east).tocsr()
-            total = total + csr_array(
-                (both.data, chosen[both.indices], both.indptr), shape=total.shape
-            )
-        area = width * height * span**2
-        return diags_array(HECTARE / area) @ total
-
     def contributions(self, cells: Cells) -> Iterator[Contributions]:
         """Each landmark's weight times its kernel over the cell, less what neighbours deny."""
-        for start in range(0, len(cells), 500):
-            part = cells.take(np.arange(start, min(start + 500, len(cells))))
-            coverage = self._coverage(part)
-            for i in range(len(part)):
-                row = slice(coverage.indptr[i], coverage.indptr[i + 1])
-                landmark = coverage.indices[row].astype(np.int64)
-                share = coverage.data[row][:, None]
-                yield Contributions(
-                    landmark,
-                    share * self._plain[landmark],
-                    -share * self._loss[landmark],
-                    self._ground,
-                )
+        if not len(self._xy):
+            nothing = np.zeros((0, len(self._ground)))
+            empty = Contributions(np.zeros(0, np.int64), nothing, nothing, self._ground)
+            yield from [empty] * len(cells)
+            return
+        kernels, (width, height) = self._all_kernels, self._grid.step
+        for depth, row, column in zip(
+            cells.depth.tolist(), cells.row.tolist(), cells.column.tolist(), strict=True
+        ):
+            span = int(self._grid.span(depth))
+            near = kernels.near(column * span, (column + 1) * span)
+            share = kernels.rows.between(near, row * span, (row + 1) * span)
+            near, share = near[share > 0], share[share > 0]
+            share = share * kernels.columns.between(near, column * span, (column + 1) * span)
+            share = (share * (HECTARE / (width * height * span**2)))[:, None]
+            landmark = kernels.landmark[near]
+            own, loss = self._plain[landmark], self._loss[landmark]
+            yield Contributions(landmark, share * own, -share * loss, self._ground)
 
 
 def dissimilarity(xy: Floats, weight: Floats, radius: float) -> Floats:
