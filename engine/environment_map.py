@@ -114,7 +114,7 @@ class EnvironmentMap:
             reasons=self.reasons([i])[0],
         )
 
-    def tell(self, segment_id: str, *, against: str | None = None, limit: int = 4) -> str:
+    def tell(self, segment_id: str, *, against: str | None = None, limit: int = 6) -> str:
         """The explanation of a segment in words.
 
         Args:

@@ -30,6 +30,8 @@ REACH = 3.5
 """Standard deviations after which a kernel is cut off (it holds 99.95 % of a landmark by then)."""
 CLOSE = 1.5
 """Neighbours within this many bandwidths can contradict a landmark."""
+WIDEST = 3.0
+"""A site counts as at most this many times as wide as the bandwidth, whatever that is set to."""
 CROWDING_SHARE = 0.1
 ABSENCE_LEAST, ABSENCE_MOST = 0.05, 0.6
 """Evidence of unmarked ground: this share of the map's mean crowding, between these bounds."""
@@ -140,7 +142,7 @@ class FieldEvidence(Evidence):
         width = np.maximum(site, bandwidth)
         self._kernels = [self._kernels_of(np.flatnonzero(width == w), w) for w in np.unique(width)]
         loss = settings.dissimilarity * weight * dissimilarity(self._xy, weight, CLOSE * bandwidth)
-        size = (width / bandwidth)[:, None] ** 2
+        size = np.minimum(width / bandwidth, WIDEST)[:, None] ** 2
         self._plain, self._loss = weight * size, loss * size
         finest = self._spread(self._plain - self._loss)
         self.absence = crowding_share(finest) if settings.absence is None else settings.absence

@@ -54,12 +54,12 @@ class Settings:
         self._between("a", 0, 1, open_ends=True)
         self._between("dissimilarity", 0, 1)
         self._between("threshold", 0, 1)
-        self._between("cells", 1, 20_000)
-        self._between("min_landmarks", 0, math.inf)
+        self._between("cells", 1, 4_096)
+        self._between("min_landmarks", 0, 10**9)
         if self.bandwidth is not None:
-            self._between("bandwidth", 0, math.inf, open_ends=True)
+            self._between("bandwidth", 0, 1e9, open_ends=True)
         if self.absence is not None:
-            self._between("absence", 0, math.inf)
+            self._between("absence", 0, 1e9)
 
     def _one_of(self, name: str, *allowed: str) -> None:
         if getattr(self, name) not in allowed:
@@ -68,6 +68,7 @@ class Settings:
     def _between(self, name: str, low: float, high: float, open_ends: bool = False) -> None:
         value = getattr(self, name)
         inside = low < value < high if open_ends else low <= value <= high
+        inside = inside and math.isfinite(value)
         if not inside:
             edges = "between" if open_ends else "from"
             joint = "and" if open_ends else "to"

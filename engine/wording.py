@@ -13,14 +13,14 @@ LEAST = 0.005
 """Parts of P below this are summed up instead of told."""
 
 
-def tell(explanation: Explanation, why: Why, *, against: str | None = None, limit: int = 4) -> str:
+def tell(explanation: Explanation, why: Why, *, against: str | None = None, limit: int = 6) -> str:
     """Why a segment is what it is, and why not what comes second.
 
     Args:
         explanation: of one segment.
         why: finds the sentence behind a feature and an environment.
         against: the environment to compare with; None takes the runner-up.
-        limit: how many feature classes to name for each environment.
+        limit: how many feature classes to name for the winner; half as many for the other.
     """
     p = explanation.probabilities
     name = explanation.environment
@@ -36,9 +36,10 @@ def tell(explanation: Explanation, why: Why, *, against: str | None = None, limi
     other = against or explanation.runner_up
     if other and other != name:
         chance = p.get(other, 0.0)
-        found = _told(explanation, other, why, limit)
-        lines.append(f"Why not {other} (P = {chance:.2f})?")
-        lines += found or ["  Nothing in or around the segment points to it."]
+        found = _told(explanation, other, why, (limit + 1) // 2)
+        place = "comes second" if other == explanation.runner_up else "is further behind"
+        lines.append(f"Why not {other}? It {place} (P = {chance:.2f}); what speaks for it:")
+        lines += found or ["  nothing in or around the segment."]
     return "\n".join(lines)
 
 
@@ -54,7 +55,7 @@ def _told(explanation: Explanation, environment: str, why: Why, limit: int) -> l
 
 
 def _line(reason: Reason, environment: str, why: Why) -> str:
-    subject = f"{reason.count} x {reason.label}" if reason.count else reason.label
+    subject = f"{reason.count} x {reason.label} in and around" if reason.count else reason.label
     indication = why(reason.feature, environment)
     because = f": {indication.reason}" if indication and indication.reason else ""
     if indication and indication.steps:

@@ -73,6 +73,8 @@ def build(
     keep = fresh & inside & (features >= 0)
     if unknown and not keep.any():
         notes.append("no landmark has a class or tags that the ontology knows: all is unknown")
+    if columns.surveyed is not None:
+        notes.extend(_not_surveyed(columns, surveyed, keep))
     x, y = area.frame.to_metres(*_outside(columns, system, keep))
     feature = features[keep]
     confidence = np.ones(len(columns)) if columns.confidence is None else columns.confidence
@@ -106,6 +108,21 @@ def _left_out(surveyed: BaseGeometry | None, box: Box) -> list[str]:
         return []
     share = 1 - surveyed.area / ((box[2] - box[0]) * (box[3] - box[1]))
     return [f"{100 * share:.0f} % of the area holds no object of the file and stays unknown"]
+
+
+def _not_surveyed(
+    columns: Columns, surveyed: BaseGeometry | None, keep: NDArray[np.bool_]
+) -> list[str]:
+    """A remark on the landmarks outside the surveyed area that the file states, if any."""
+    if surveyed is None:
+        return []
+    import shapely
+
+    shapely.prepare(surveyed)
+    count = int((~shapely.intersects_xy(surveyed, columns.x[keep], columns.y[keep])).sum())
+    if not count:
+        return []
+    return [f"{count} landmarks lie outside the surveyed area; the map is unknown there"]
 
 
 def _one_line(text: str) -> str:

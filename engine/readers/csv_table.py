@@ -209,13 +209,16 @@ def _floats(
     empty: float | None = None,
 ) -> Floats:
     """Numbers of a column of text; the line of the first one that is none is found afterwards."""
-    try:
-        return np.fromiter(map(float, column), np.float64, len(column))
-    except ValueError:
-        pass
+    if "_" not in "".join(column):  # Python reads 1_0 as 10
+        try:
+            return np.fromiter(map(float, column), np.float64, len(column))
+        except ValueError:
+            pass
     numbers = np.empty(len(column))
     for row, text in enumerate(column):
         try:
+            if "_" in text:
+                raise ValueError
             blank = empty is not None and not text.strip()
             numbers[row] = empty if blank else float(text)
         except ValueError as error:

@@ -121,8 +121,11 @@ def _parse(data: bytes, name: str) -> object:
         raise LandmarkError(problem, source=name, where=where) from error
     except RecursionError as error:
         raise LandmarkError("this JSON is nested too deeply", source=name) from error
-    except ValueError as error:
-        raise LandmarkError(f"this is not valid JSON ({error})", source=name) from error
+    except UnicodeDecodeError as error:
+        raise LandmarkError("this is not valid JSON: it is not UTF-8 text", source=name) from error
+    except ValueError as error:  # the only other one: Python reads whole numbers up to a length
+        problem = "this is not valid JSON for a map: a number has thousands of digits"
+        raise LandmarkError(problem, source=name) from error
 
 
 def _collection(document: object, name: str) -> tuple[Mapping[str, Any], list[Any]]:
@@ -240,7 +243,7 @@ def _kinds(kinds: Codes, codes: list[int], name: str) -> list[Kind]:
             if not isinstance(label, str):
                 raise TypeError
             result.append((label.strip(), tuple((key, _tag_text(value)) for key, value in tags)))
-        except TypeError as error:
+        except (TypeError, ValueError) as error:
             problem = "its class or tags are not text"
             raise LandmarkError(problem, source=name, where=_place(codes.index(code))) from error
     return result
@@ -261,11 +264,13 @@ def _texts(values: list[Any], what: str, name: str) -> list[str | None] | None:
     for index, value in enumerate(values):
         if value is None or type(value) is str:
             continue
-        if type(value) is int or type(value) is float:
+        try:
+            if type(value) is not int and type(value) is not float:
+                raise TypeError
             values[index] = str(value)
-        else:
+        except (TypeError, ValueError) as error:
             problem = f"its {what} is {_show(value)}, not text"
-            raise LandmarkError(problem, source=name, where=_place(index))
+            raise LandmarkError(problem, source=name, where=_place(index)) from error
     return values
 
 
@@ -280,7 +285,10 @@ def _is_position(value: object) -> bool:
 
 
 def _show(value: object) -> str:
-    return json.dumps(value, default=str)[:60]
+    try:
+        return json.dumps(value, default=str)[:60]
+    except ValueError:
+        return "a number of thousands of digits"
 
 
 def _json_type(value: object) -> str:

@@ -97,9 +97,11 @@ def read(source: Source, knowledge: FeatureIndex, progress: Progress) -> Columns
 
 @contextmanager
 def _guard(name: str) -> Iterator[None]:
+    import osmium
+
     try:
         yield
-    except (RuntimeError, OSError) as error:
+    except (RuntimeError, OSError, osmium.InvalidLocationError) as error:
         problem = f"this is not readable OpenStreetMap data, or it is cut short ({error})"
         raise LandmarkError(problem, source=name) from error
 
@@ -117,7 +119,9 @@ def _read(packed: Any, name: str, keys: frozenset[str]) -> Columns:
     codes = Codes()
     nodes, areas = _Rows(), _Rows()
     on_outline: set[int] = set()
-    broken = _collect(packed, keys, codes, nodes, areas, on_outline)
+    broken, unplaced = _collect(packed, keys, codes, nodes, areas, on_outline)
+    if unplaced and not nodes.id and not areas.id:
+        _refuse_out_of_range(packed, name)
     keep = [i for i, text in enumerate(nodes.id) if int(text[1:]) not in on_outline]
     notes = []
     if len(keep) < len(nodes.id):
@@ -125,6 +129,10 @@ def _read(packed: Any, name: str, keys: frozenset[str]) -> Columns:
         notes.append(f"{left_out} nodes repeat the tags of the area that they outline: left out")
     if broken:
         notes.append(f"{broken} areas have no usable outline: left out")
+    if unplaced:
+        notes.append(
+            f"{unplaced} elements could not be placed: their nodes are missing or out of range"
+        )
     ids = [nodes.id[i] for i in keep] + areas.id
     x = np.array([nodes.x[i] for i in keep] + areas.x, np.float64)
     y = np.array([nodes.y[i] for i in keep] + areas.y, np.float64)
@@ -161,18 +169,24 @@ def _collect(
     nodes: _Rows,
     areas: _Rows,
     on_outline: set[int],
-) -> int:
-    """Fill the rows; returns the number of areas without a usable outline."""
+) -> tuple[int, int]:
+    """Fill the rows.
+
+    Returns:
+        The number of areas without a usable outline, and that of elements without a place.
+    """
     import osmium
 
     kind_of_node: dict[int, int] = {}
     wkb = osmium.geom.WKBFactory()
     outlines: list[str] = []
-    broken = 0
+    broken = lost = 0
+    awaited: set[str] = set()  # ways and relations whose area was not seen yet
     for element in _elements(packed, keys):
         if isinstance(element, osmium.osm.Node):
             tags = tuple(sorted((tag.k, tag.v) for tag in element.tags if tag.k in keys))
-            if not tags or not element.location.valid():
+            if not element.location.valid():
+                lost += 1
                 continue
             kind_of_node[element.id] = code = codes[tags]
             nodes.id.append(f"n{element.id}")
@@ -180,41 +194,74 @@ def _collect(
             nodes.y.append(element.location.lat)
             nodes.kind.append(code)
         elif isinstance(element, osmium.osm.Area):
-            tags = _area_tags(element, keys)
+            tags = _area_tags(element, keys, from_way=element.from_way())
             if not tags:
                 continue
+            name = f"{'w' if element.from_way() else 'r'}{element.orig_id()}"
+            awaited.discard(name)
             try:
                 outlines.append(wkb.create_multipolygon(element))
             except RuntimeError:
                 broken += 1
                 continue
             code = codes[tags]
-            areas.id.append(f"{'w' if element.from_way() else 'r'}{element.orig_id()}")
+            areas.id.append(name)
             areas.kind.append(code)
             on_outline.update(ref for ref in _outline(element) if kind_of_node.get(ref, -1) == code)
             if len(outlines) >= _BATCH:
                 _add_points(areas, outlines)
+        elif _is_outline(element) and _area_tags(element, keys, from_way=element.is_way()):
+            awaited.add(f"{'w' if element.is_way() else 'r'}{element.id}")
     _add_points(areas, outlines)
-    return broken
+    return broken, lost + len(awaited)
 
 
 def _elements(packed: Any, keys: frozenset[str]) -> Iterator[Any]:
-    """Nodes and areas that have one of the keys."""
+    """Nodes, ways, relations and areas that have one of the keys; areas after their origin."""
     import osmium
 
     if not keys:
         return
-    bits = osmium.osm.NODE | osmium.osm.AREA
     processor = osmium.FileProcessor(packed).with_areas()
-    processor.with_filter(osmium.filter.EntityFilter(bits))
     processor.with_filter(osmium.filter.KeyFilter(*sorted(keys)))
     yield from processor
 
 
-def _area_tags(area: osmium.osm.Area, keys: frozenset[str]) -> Tags:
-    """The tags that say what the area is, without those that only describe its outline."""
-    found = sorted((tag.k, tag.v) for tag in area.tags if tag.k in keys and tag.k not in _LAND_USE)
-    if not area.from_way() or area.tags.get("area") == "yes":
+def _is_outline(element: Any) -> bool:
+    """Whether an area is to be made of a way or relation."""
+    if element.is_way():
+        closed = len(element.nodes) > 3 and element.is_closed()
+        return closed and element.tags.get("area") != "no"
+    return element.tags.get("type") in ("multipolygon", "boundary")
+
+
+def _refuse_out_of_range(packed: Any, name: str) -> None:
+    """Refuse an extract that has nodes, but none in range.
+
+    Raises:
+        LandmarkError: it is one.
+    """
+    import osmium
+
+    count = 0
+    for node in osmium.FileProcessor(packed, osmium.osm.NODE):
+        if node.location.valid():
+            return
+        count += 1
+    if count:
+        problem = (
+            f"all {count} nodes are out of range for longitude and latitude in degrees: the two "
+            "look swapped"
+        )
+        raise LandmarkError(problem, source=name)
+
+
+def _area_tags(element: Any, keys: frozenset[str], *, from_way: bool) -> Tags:
+    """The tags that say what an area is, without those that only describe its outline."""
+    found = sorted(
+        (tag.k, tag.v) for tag in element.tags if tag.k in keys and tag.k not in _LAND_USE
+    )
+    if not from_way or element.tags.get("area") == "yes":
         return tuple(found)
     return tuple(
         (key, value)

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
 _CELL = 125.0
 """Metres; side of a cell of the mask."""
-_REACH = 2
-"""Cells around an object that were looked at with it: 250 m."""
+_REACH = 1
+"""Cells around an object that were looked at with it: 125 m."""
 _MARGIN = 2000.0
 """Metres around the area that are looked at too: a field may be cut by the area's edge."""
 _MOST_CELLS = 4096

@@ -75,19 +75,26 @@ def format_of(target: str | Path, format: str | None = None) -> str:
     raise OutputError(f"{target}: no format has the ending {suffix!r}; use one of {endings}")
 
 
-def check_targets(targets: Iterable[str | Path]) -> None:
+def check_targets(targets: Iterable[str | Path], inputs: Iterable[str | Path] = ()) -> None:
     """Refuse targets that cannot be written, before any work is done for them.
+
+    Args:
+        targets: the files to write.
+        inputs: files that are read, which no target may replace.
 
     Raises:
         OutputError: a target without a known format, one that is named twice, or one whose
-            folder does not exist or may not be written to.
+            folder does not exist or may not be written to, or that is an input.
     """
+    read = {os.path.realpath(name) for name in inputs if str(name) != "-"}
     seen = set()
     for target in targets:
         format_of(target)
         place = str(target) if str(target) == "-" else os.path.realpath(target)
         if place in seen:
             raise OutputError(f"{target} is named twice; each output needs its own file")
+        if place in read:
+            raise OutputError(f"{target} is an input; writing there would replace it")
         seen.add(place)
         if place != "-":
             check_writable(target)

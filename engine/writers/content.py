@@ -8,6 +8,7 @@ contributions to an environment to exactly its probability, also after rounding.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -197,6 +198,20 @@ class Content:
             "notes": list(report.notes),
             "attribution": report.attribution,
         }
+
+
+def source_name(m: EnvironmentMap) -> str:
+    """The file that the landmarks are from, without its folders: those are nobody else's."""
+    return _base_name(m.landmarks.report.source)
+
+
+def ontology_name(m: EnvironmentMap) -> str:
+    """The ontology's files without their folders, or ``bundled``."""
+    return ", ".join(map(_base_name, m.knowledge.source.split(", ")))
+
+
+def _base_name(path: str) -> str:
+    return re.split(r"[\\/]", path)[-1]
 
 
 def millionths(probability: NDArray[np.float64]) -> NDArray[np.int64]:

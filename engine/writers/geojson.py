@@ -10,7 +10,7 @@ import shapely
 
 from symboslam import __version__
 from symboslam.engine.environment_map import EnvironmentMap
-from symboslam.engine.writers.content import MILLION, Block, Content, Part
+from symboslam.engine.writers.content import MILLION, Block, Content, Part, source_name
 from symboslam.engine.writers.options import WriteOptions, reasons_wanted
 
 
@@ -104,7 +104,7 @@ def _about(content: Content) -> dict[str, Any]:
         "version": __version__,
         "config": dict(m.config),
         "knowledge_hash": m.knowledge.source_hash,
-        "source": m.landmarks.report.source,
+        "source": source_name(m),
         "report": content.report(),
         "environments": content.environments(),
         "features": content.features(),

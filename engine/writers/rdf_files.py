@@ -21,6 +21,7 @@ def read_graph(path: Path) -> Graph:
         InputError: it cannot be read, does not parse, or has another ending.
     """
     from rdflib import Dataset, Graph
+    from rdflib.exceptions import ParserError
 
     syntax = SYNTAXES.get(path.suffix.lower())
     if syntax is None:
@@ -33,7 +34,9 @@ def read_graph(path: Path) -> Graph:
     except OSError as error:
         raise InputError(f"{path} cannot be read: {error.strerror or error}") from error
     except Exception as error:  # rdflib's parsers raise errors of many unrelated types
-        raise InputError(f"{path} does not parse: {str(error).strip()}") from error
+        told = isinstance(error, SyntaxError | ParserError)
+        problem = str(error).strip() if told else "it is damaged or cut short"
+        raise InputError(f"{path} does not parse: {problem}") from error
     return union_of(graph)
 
 

@@ -13,6 +13,7 @@ import shapely
 from numpy.typing import NDArray
 
 from symboslam import __version__
+from symboslam.engine.writers.content import ontology_name, source_name
 from symboslam.engine.writers.rdf_records import Record, Records, digits
 from symboslam.engine.writers.rdf_syntax import ABSOLUTE_IRI, Properties
 from symboslam.engine.writers.vocabulary import (
@@ -74,7 +75,7 @@ def provenance(records: Records, ended: datetime | None) -> Iterator[Record]:
         s.own("ontology"),
         [
             a(SL + "OntologySource", PROV + "Entity"),
-            (s.iri(DCTERMS + "source"), [s.text(m.knowledge.source)]),
+            (s.iri(DCTERMS + "source"), [s.text(ontology_name(m))]),
             (s.iri(SL + "sha256"), [s.text(m.knowledge.source_hash)]),
         ],
     )
@@ -130,7 +131,7 @@ def _landmark_set(records: Records) -> Properties:
         (s.iri(SL + "landmarkCount"), [s.integer(len(records.map.landmarks))]),
     ]
     if report.source:
-        found.append((s.iri(DCTERMS + "source"), [s.text(report.source)]))
+        found.append((s.iri(DCTERMS + "source"), [s.text(source_name(records.map))]))
     found += _rights(records)
     left = [("not in the ontology", name, n) for name, n in sorted(report.unknown.items())]
     left += [("outside the area", "", report.outside), ("duplicate", "", report.duplicates)]

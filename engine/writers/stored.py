@@ -52,6 +52,19 @@ class StoredMap:
             )
         return found
 
+    def environment_of(self, word: str) -> str:
+        """Name of the environment with this name or label; upper and lower case are alike.
+
+        Raises:
+            UnknownNameError: there is none; lists those that there are.
+        """
+        for name, environment in self.environments.items():
+            if word.casefold() in (name.casefold(), environment.label.casefold()):
+                return name
+        raise UnknownNameError(
+            f"{self.source}: no environment {word!r}; there are: {', '.join(self.environments)}"
+        )
+
     def find_indication(self, feature: str, environment: str) -> Indication | None:
         """What a feature says of an environment, or None if the file tells nothing of it."""
         return self.indications.get((feature, environment))
@@ -82,8 +95,11 @@ def read_map(path: str | Path) -> StoredMap:
 def _read_geojson(path: Path) -> StoredMap:
     try:
         collection = json.loads(path.read_bytes())
-    except ValueError as error:
-        raise InputError(f"{path} is no JSON: {error}") from error
+    except json.JSONDecodeError as error:
+        raise InputError(f"{path} is no JSON, or it is cut short: {error}") from error
+    except (ValueError, RecursionError) as error:
+        problem = "no text, nested too deeply, or with a number of thousands of digits"
+        raise InputError(f"{path} is no JSON of a map: {problem}") from error
     try:
         about = collection.get("symboslam", {})
         features: dict[str, Any] = about.get("features", {})
@@ -102,9 +118,10 @@ def _read_geojson(path: Path) -> StoredMap:
             },
             segments={segment.segment_id: segment for segment in segments},
         )
-    except (AttributeError, KeyError, TypeError) as error:
+    except (AttributeError, KeyError, TypeError, ValueError, OverflowError) as error:
+        problem = f"it lacks {error}" if isinstance(error, KeyError) else "a part has a wrong type"
         raise InputError(
-            f"{path} is no environment map written by symboslam ({type(error).__name__}: {error})"
+            f"{path} is no environment map written by symboslam, or it is damaged: {problem}"
         ) from error
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import defaultdict
 from pathlib import Path
 
@@ -25,7 +26,7 @@ def read_rdf(path: Path) -> StoredMap:
         raise InputError(f"{path} holds no sl:EnvironmentMap")
     try:
         return _stored(index, str(path))
-    except (KeyError, ValueError) as error:
+    except ValueError as error:
         raise InputError(f"{path} is no complete environment map: {error}") from error
 
 
@@ -59,6 +60,18 @@ def _named(index: Index, node: str, predicate: str) -> str:
     return _name(index, term)
 
 
+def _number(index: Index, node: str, predicate: str) -> float:
+    """The finite number that a node has."""
+    text = index.text(node, predicate)
+    try:
+        number = float(text)
+    except ValueError as error:
+        raise ValueError(f"{node} has {text[:40]!r} for {predicate}, not a number") from error
+    if not math.isfinite(number):
+        raise ValueError(f"{node} has {text[:40]!r} for {predicate}, not a finite number")
+    return number
+
+
 def _environment(index: Index, term: str) -> Environment:
     return Environment(
         iri=term,
@@ -74,8 +87,8 @@ def _indications(index: Index, feature: str) -> list[Indication]:
         Indication(
             feature=_name(index, feature),
             environment=_named(index, node, SL + "environment"),
-            strength=float(index.text(node, SL + "strength")),
-            steps=int(index.text(node, SL + "steps")),
+            strength=_number(index, node, SL + "strength"),
+            steps=int(_number(index, node, SL + "steps")),
             path=tuple(filter(None, index.text(node, SL + "way").split(" > "))),
             reason=index.text(node, RDFS + "comment"),
             source=index.text(node, DCTERMS + "source"),
@@ -93,7 +106,7 @@ def _segment(index: Index, segment: str) -> Explanation:
     for classification in index.subjects(SOSA + "hasFeatureOfInterest", segment):
         for distribution in index.all(classification, SOSA + "hasResult"):
             for node in index.all(distribution, SL + "hasProbability"):
-                p = float(index.text(node, SL + "probability"))
+                p = _number(index, node, SL + "probability")
                 probabilities[_named(index, node, SL + "environment")] = p
         reasons += _reasons(index, classification)
     return in_order(
@@ -114,7 +127,7 @@ def _reasons(index: Index, classification: str) -> list[Reason]:
         feature = index.one(node, SL + "featureClass")
         name = "" if feature is None else _name(index, feature)
         label = index.text(feature or node, RDFS + "label")
-        described[feature] = (name, label, int(index.text(node, SL + "count")))
+        described[feature] = (name, label, int(_number(index, node, SL + "count")))
         environment = _named(index, node, SL + "environment")
-        shares[feature][environment] = float(index.text(node, SL + "share"))
+        shares[feature][environment] = _number(index, node, SL + "share")
     return [Reason(*described[feature], shares[feature]) for feature in shares]

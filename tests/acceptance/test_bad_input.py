@@ -83,7 +83,7 @@ def test_duplicate_ids(run: Any, points: Any) -> None:
 def test_exact_duplicates_are_counted(run: Any, points: Any) -> None:
     result = run("classify", points([(HOUSE | {"id": "a"}, HERE)] * 2))
     assert result.code == 0
-    assert "1 exact duplicate" in result.out
+    assert "exact duplicates left out: 1" in result.out
 
 
 def test_unknown_classes_are_counted_and_listed(run: Any, points: Any) -> None:
@@ -211,3 +211,18 @@ def test_a_full_disk_keeps_the_old_file(town: Path, tmp_path: Path, name: str) -
     assert name in done.stderr
     assert old.read_text() == "old"
     assert list(folder.iterdir()) == [old]
+
+
+def test_an_output_may_not_replace_an_input(run: Any, town: Path, tmp_path: Path) -> None:
+    before = town.read_text()
+    refused(run("classify", town, "--out", town), "town.geojson", "input")
+    assert town.read_text() == before
+    mine = tmp_path / "mine.ttl"
+    mine.write_text(NO_ENVIRONMENTS)
+    refused(run("classify", town, "--ontology", mine, "--out", mine), "mine.ttl", "input")
+    assert mine.read_text() == NO_ENVIRONMENTS
+
+
+@pytest.mark.parametrize("value", ["inf", "nan", "-1"])
+def test_absence_must_be_a_number(run: Any, town: Path, value: str) -> None:
+    refused(run("classify", town, "--absence", value), "absence")

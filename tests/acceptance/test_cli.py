@@ -92,8 +92,13 @@ def test_explain_reads_what_classify_wrote(
     assert told.out == run("explain", geojson, name).out
     numbers = json.loads(run("explain", out, name, "--json").out)
     assert numbers["environment"] == "Residential"
-    against = run("explain", out, name, "--against", "Industrial")
-    assert "Why not Industrial" in against.out
+    for word in ("Industrial", "industrial"):
+        against = run("explain", out, name, "--against", word)
+        assert "Why not Industrial" in against.out
+    wrong = run("explain", out, name, "--against", "Nowhere")
+    assert wrong.code == 2
+    assert "Residential" in wrong.err  # lists what there is
+    assert run("explain", out, name, "--limit", -1).code == 2
 
 
 def test_a_map_without_reasons_says_how_to_get_them(run: Any, town: Path, tmp_path: Path) -> None:
@@ -109,6 +114,7 @@ def test_feature_says_what_how_strongly_and_why(run: Any) -> None:
     assert told.code == 0
     for word in ("Residential", "0.90", "building=house", "RZ1", "importance 1.00"):
         assert word in told.out
+    assert "building=* applies" in run("feature", "building=nonsense").err
     record = json.loads(run("feature", "building=barn", "--json").out)
     assert record["name"] == "Barn"
     assert record["indications"][0]["environment"] == "NonUrban"
@@ -177,9 +183,7 @@ ROOMS = Path(__file__).parents[2] / "examples" / "indoor-rooms"
 def test_an_ontology_of_ones_own_goes_through_the_whole_chain(run: Any, tmp_path: Path) -> None:
     out, page = tmp_path / "flat.geojson", tmp_path / "flat.html"
     own = ("--ontology", ROOMS / "rooms.ttl")
-    result = run(
-        "classify", ROOMS / "flat.csv", *own, "--cells", 12, "--out", out, "--out", page
-    )
+    result = run("classify", ROOMS / "flat.csv", *own, "--cells", 12, "--out", out, "--out", page)
     assert result.code == 0, result.err
     data = json.loads(out.read_text())
     assert data["crs_units"] == "m"

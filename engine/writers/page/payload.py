@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from symboslam.engine.environment_map import EnvironmentMap
 from symboslam.engine.explanation import Reason
 from symboslam.engine.frame import Frame
+from symboslam.engine.writers.content import ontology_name, source_name
 from symboslam.engine.writers.page.features import Features
 from symboslam.engine.writers.page.outlines import Quantiser, regions
 
@@ -113,11 +114,11 @@ def _title(environment_map: EnvironmentMap) -> str:
 def _facts(environment_map: EnvironmentMap) -> dict[str, str]:
     knowledge, config = environment_map.knowledge, environment_map.config
     return {
-        "Source": environment_map.landmarks.report.source,
+        "Source": source_name(environment_map),
         "Profile": str(config.get("profile", "")),
         "Environment types": str(config.get("scheme", "")),
         "Segmentation": str(config.get("segmentation", "")),
-        "Ontology": knowledge.source,
+        "Ontology": ontology_name(environment_map),
         "Ontology hash": knowledge.source_hash,
     }
 

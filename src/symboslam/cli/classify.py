@@ -119,7 +119,7 @@ def classify(
     from symboslam.engine.writers import check_targets, write_map
 
     targets = out or []
-    check_targets(targets)
+    check_targets(targets, [source, *([ontology] if ontology else [])])
     with progress_bar(quiet) as progress:
         knowledge = load_knowledge(ontology, progress)
         landmarks = read_landmarks(
@@ -158,14 +158,13 @@ def summarise(found: EnvironmentMap, targets: list[str]) -> None:
     if report.unknown:
         most = ", ".join(f"{name} ({n})" for name, n in report.unknown.most_common(8))
         lines.append(
-            f"{sum(report.unknown.values())} landmarks of {len(report.unknown)} kinds that the "
-            f"ontology does not know were left out: {most}"
+            f"not in the ontology and left out: {sum(report.unknown.values())}, of kind {most}"
             + (", ..." if len(report.unknown) > 8 else "")
         )
     if report.outside:
-        lines.append(f"{report.outside} outside the bounding box were left out")
+        lines.append(f"outside the bounding box and left out: {report.outside}")
     if report.duplicates:
-        lines.append(f"{report.duplicates} exact duplicate(s) left out")
+        lines.append(f"exact duplicates left out: {report.duplicates}")
     lines += [*report.notes, *found.knowledge.notes]
     lines += [f"wrote {Path(t).resolve()}" for t in targets if t != "-"]
     show(result, "\n".join(lines), error="-" in targets)

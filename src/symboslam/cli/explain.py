@@ -28,7 +28,7 @@ def explain(
         str | None,
         typer.Option(help="Environment to compare with.", show_default="the runner-up"),
     ] = None,
-    limit: Annotated[int, typer.Option(help="Kinds of landmarks to name.")] = 4,
+    limit: Annotated[int, typer.Option(min=1, help="Kinds of landmarks to name.")] = 6,
     as_json: Annotated[bool, typer.Option("--json", help="Print the numbers as JSON.")] = False,
 ) -> None:
     """Tell why a segment is what it is, and why it is not something else."""
@@ -37,6 +37,8 @@ def explain(
 
     stored = read_map(source)
     found = stored.explain(segment)
+    if against is not None:
+        against = stored.environment_of(against)
     if as_json:
         from dataclasses import asdict
 

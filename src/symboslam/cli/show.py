@@ -44,6 +44,8 @@ def feature(
     with progress_bar() as progress:
         knowledge = load_knowledge(ontology, progress)
     known = _found(name, knowledge)
+    if "=" in name and name not in known.osm_tags:
+        show(f"{name} has no feature of its own; {name.partition('=')[0]}=* applies:", error=True)
     indications = sorted(knowledge.indications_of(known.name), key=lambda i: -i.proximity)
     shown = {e.name for e in knowledge.scheme(scheme)}
     indications = [i for i in indications if i.environment in shown]
