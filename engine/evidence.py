@@ -13,8 +13,8 @@ from symboslam.engine.landmarks import LandmarkMap
 from symboslam.engine.settings import Settings
 
 Floats = NDArray[np.float64]
-BLOCK = 2_000_000
-"""Distances held at a time: 16 MB, far below a whole z x z matrix."""
+BLOCK = 256
+"""Landmarks along each side of a block of distances: 0.5 MB, which stays in a cache."""
 
 
 def nearness(xy: Floats, member: Floats, diagonal: float) -> Floats:
@@ -30,14 +30,17 @@ def nearness(xy: Floats, member: Floats, diagonal: float) -> Floats:
     """
     from scipy.spatial.distance import cdist
 
-    near = np.empty(member.shape)
-    rows = max(1, BLOCK // max(len(xy), 1))
-    for start in range(0, len(xy), rows):
-        part = slice(start, start + rows)
-        distance = cdist(xy[part], xy)
-        distance /= diagonal
-        near[part] = np.subtract(1, distance, out=distance) @ member
-    return near - member  # a landmark makes no pair with itself, where 1 - d = 1
+    scaled = xy / diagonal
+    far = np.zeros(member.shape)
+    blocks = [slice(start, start + BLOCK) for start in range(0, len(xy), BLOCK)]
+    for i, rows in enumerate(blocks):
+        for columns in blocks[i:]:  # distances are symmetric: each block serves twice
+            d = cdist(scaled[rows], scaled[columns])
+            far[rows] += d @ member[columns]
+            if columns != rows:
+                far[columns] += d.T @ member[rows]
+    # The sum of 1 - d is the number of members less the sum of d; none makes a pair with itself.
+    return np.asarray(member.sum(0) - far - member)
 
 
 def pair_evidence(

@@ -120,7 +120,7 @@ def _read(packed: Any, name: str, keys: frozenset[str]) -> Columns:
     nodes, areas = _Rows(), _Rows()
     on_outline: set[int] = set()
     broken, unplaced = _collect(packed, keys, codes, nodes, areas, on_outline)
-    if unplaced and not nodes.id and not areas.id:
+    if not nodes.id and not areas.id:
         _refuse_out_of_range(packed, name)
     keep = [i for i, text in enumerate(nodes.id) if int(text[1:]) not in on_outline]
     notes = []
@@ -244,6 +244,7 @@ def _refuse_out_of_range(packed: Any, name: str) -> None:
     import osmium
 
     count = 0
+    node: Any
     for node in osmium.FileProcessor(packed, osmium.osm.NODE):
         if node.location.valid():
             return

@@ -85,7 +85,7 @@ def test_blocks_do_not_change_the_result(monkeypatch: pytest.MonkeyPatch) -> Non
     rng = np.random.default_rng(1)
     xy, weight = rng.uniform(0, 50, (101, 2)), rng.choice([0, 0.5, 1.0], (101, 4))
     whole = pair_evidence(xy, weight, 80.0)[0]
-    monkeypatch.setattr(evidence, "BLOCK", 300)
+    monkeypatch.setattr(evidence, "BLOCK", 7)
     np.testing.assert_allclose(pair_evidence(xy, weight, 80.0)[0], whole, rtol=1e-13)
 
 
@@ -102,8 +102,8 @@ def test_no_matrix_of_all_pairs_is_held(monkeypatch: pytest.MonkeyPatch) -> None
 
     monkeypatch.setattr(distance, "cdist", watched)
     pair_evidence(np.random.default_rng(0).uniform(0, 1, (6000, 2)), np.ones((6000, 1)), 2.0)
-    assert sum(sizes) == 6000 * 6000 * 8
-    assert max(sizes) < 256e6
+    assert sum(sizes) >= 6000 * 6000 * 8 / 2
+    assert max(sizes) < 256e6 / 100
 
 
 def test_paper_profile_of_one_cell_by_hand(knowledge: Knowledge, landmarks_at: Any) -> None:

@@ -325,3 +325,27 @@ def test_national_degrees_are_converted_and_checked(read: Read) -> None:
     assert np.allclose(landmarks.frame.origin, (149.15, -35.25), atol=5e-5)
     with pytest.raises(LandmarkError, match="look swapped"):
         read(collection((-35.3, 149.1)), crs="EPSG:4283")
+
+
+LIES_OUTSIDE = "lie outside the surveyed area; the map is unknown there"
+
+
+def test_landmarks_outside_the_surveyed_area_are_counted(read: Read) -> None:
+    """Of those in the box: (6, 6) and (9, 1) lie outside, (5, 5) on its corner belongs to it."""
+    positions = (1, 1), (5, 5), (6, 6), (9, 1), (20, 20)
+    members = {"crs_units": "m", "bbox": [0, 0, 10, 10], "surveyed": square(0, 5)}
+    report = read(collection(*positions, **members)).report
+    assert report.notes == (f"2 landmarks {LIES_OUTSIDE}",)
+    assert (report.read, report.outside) == (4, 1)
+
+
+def test_landmarks_outside_a_surveyed_area_in_degrees(read: Read) -> None:
+    surveyed = polygon((9.0, 47.0), (9.01, 47.0), (9.01, 47.01), (9.0, 47.01))
+    document = collection((9.001, 47.001), (9.02, 47.02), surveyed=surveyed)
+    assert f"1 landmarks {LIES_OUTSIDE}" in read(document).report.notes
+
+
+def test_no_remark_if_all_is_surveyed(read: Read) -> None:
+    members = {"crs_units": "m", "bbox": [0, 0, 10, 10]}
+    assert read(collection((1, 1), surveyed=square(0, 5), **members)).report.notes == ()
+    assert read(collection((1, 1), **members)).report.notes == ()

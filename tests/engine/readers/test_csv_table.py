@@ -105,6 +105,8 @@ GOOD = "House,1,2,1,\n"
     ("text", "line", "message"),
     [
         (HEAD + GOOD + "House,x,2,1,\n", 3, "x is 'x', not a number"),
+        (HEAD + GOOD + "House,1_0,2,1,\n", 3, "x is '1_0', not a number"),
+        (HEAD + GOOD + "House,1,2,0_1,\n", 3, "confidence is '0_1', not a number"),
         (HEAD + GOOD + "House,1,,1,\n", 3, "y is '', not a number"),
         (HEAD + GOOD + "House,1,2,?,\n", 3, "confidence is '\\?', not a number"),
         (HEAD + GOOD * 5 + "House,nan,2,1,\n" + GOOD, 7, "not finite"),

@@ -251,7 +251,7 @@ def test_truncated_json_names_the_place(read: Read, write: Write) -> None:
         ('{"type": "Feat', "cut short"),
         ('{"type": "Feature"}\n{"type": "Feature"}', "line 2 column 1.*one FeatureCollection"),
         ("[" * 100_000, "nested too deeply"),
-        ("[" + "1" * 5000 + "]", "not valid JSON"),
+        ("[" + "1" * 5000 + "]", "a number has thousands of digits$"),
         ("[]", "this is a JSON array; a GeoJSON FeatureCollection"),
         ("3", "this is a JSON number"),
         ("{}", "JSON object without a type"),
@@ -267,7 +267,7 @@ def test_no_feature_collection(read: Read, write: Write, text: str, message: str
 
 
 def test_bytes_that_are_no_text(read: Read, write: Write) -> None:
-    with pytest.raises(LandmarkError, match="not valid JSON"):
+    with pytest.raises(LandmarkError, match=r"not valid JSON: it is not UTF-8 text$"):
         read(write("map.json", b'{"type": "\xff\xff"}'))
 
 
@@ -435,3 +435,36 @@ def test_the_option_is_no_surprise_where_the_file_says_nothing(read: Read) -> No
     landmarks = read(degrees(point(1, 2), point(30, 40)), crs="m")
     assert landmarks.bbox == (1, 2, 30, 40)
     assert landmarks.report.notes == ()
+
+
+@pytest.mark.parametrize("third", [7.5, None, "high", [1], {}])
+def test_a_third_coordinate_is_ignored(read: Read, third: Any) -> None:
+    feature = point(3, 4)
+    feature["geometry"]["coordinates"].append(third)
+    assert read(metres(feature)).xy.tolist() == [[3.0, 4.0]]
+
+
+@pytest.mark.parametrize("key", ["id", "time", "agent", "class", "tags", "confidence"])
+def test_huge_numbers_in_memory(read: Read, key: str) -> None:
+    """Python refuses to write them out; files with such numbers are refused before."""
+    huge = {"building": 10**5000} if key == "tags" else 10**5000
+    with pytest.raises(LandmarkError) as caught:
+        read(metres(point(**{"class": "House", key: huge})))
+    assert "sys." not in str(caught.value)
+
+
+@pytest.mark.parametrize("key", ["crs_units", "bbox", "surveyed"])
+def test_huge_numbers_in_members(read: Read, key: str) -> None:
+    with pytest.raises(GeometryError) as caught:
+        read(metres(point(), **{key: 10**5000}))
+    assert "sys." not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("label", "expected"), [("House", "House"), ("Unheard", "Tree"), ("", "Tree")]
+)
+def test_of_class_and_tags_the_class_wins_if_known(
+    read: Read, names: Callable[[LandmarkMap], list[str]], label: str, expected: str
+) -> None:
+    feature = point(**{"class": label, "tags": {"natural": "tree"}})
+    assert names(read(metres(feature))) == [expected]

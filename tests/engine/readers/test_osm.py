@@ -272,3 +272,72 @@ def test_without_pyosmium(read: Read, write: Write, monkeypatch: pytest.MonkeyPa
     monkeypatch.setitem(sys.modules, "osmium", None)
     with pytest.raises(SymboSlamError, match=r"map\.osm: the package osmium, .* cannot be loaded"):
         read(write("map.osm", xml(*TREES)))
+
+
+# Elements without a place
+
+LOST = "could not be placed: their nodes are missing or out of range"
+
+
+def test_elements_without_a_place_are_counted(read: Read, write: Write) -> None:
+    text = xml(
+        node(11, 9.0005, 47.0006, natural="tree"),
+        node(12, 9.0005, 147.0, natural="tree"),
+        node(13, 9.0005, 147.0, name="no key of a feature"),
+        way(21, (1, 2, 99, 4, 1), building="yes"),
+        way(22, (1, 2, 99, 4, 1), landuse="forest"),
+        way(23, (1, 2, 99, 4, 1), building="yes", area="no"),
+        way(24, (1, 2, 99, 4), building="yes"),
+        way(25, (1, 2, 99, 4, 1), name="no key of a feature"),
+        way(26, SQUARE, building="yes"),
+        multipolygon(31, 26, 98, building="house"),
+    )
+    landmarks = read(write("map.osm", text), bbox=BOX)
+    assert landmarks.id.tolist() == ["n11", "w26"]
+    assert landmarks.report.notes[0] == f"3 elements {LOST}"  # n12, w21, r31
+
+
+def test_an_outline_that_crosses_itself_is_counted_once(read: Read, write: Write) -> None:
+    text = xml(*TREES, way(21, (1, 3, 2, 4, 1), building="yes"))
+    notes = read(write("map.osm", text), bbox=BOX).report.notes
+    assert notes[0] == "1 areas have no usable outline: left out"
+    assert not any(LOST in note for note in notes)
+
+
+def test_elements_with_a_place_are_not_remarked_on(read: Read, write: Write) -> None:
+    text = xml(way(21, SQUARE), way(22, HOLE), multipolygon(31, 21, 22, building="yes"), *TREES)
+    assert not any(LOST in note for note in read(write("map.osm", text), bbox=BOX).report.notes)
+
+
+def swapped(*elements: str) -> str:
+    """Corners near Melbourne with latitude and longitude swapped, and other elements."""
+    corners = [node(i, -37 + y - 47, 144 + x - 9) for i, (x, y) in CORNERS.items()]
+    return f'<?xml version="1.0"?><osm version="0.6">{"".join([*corners, *elements])}</osm>'
+
+
+@pytest.mark.parametrize(
+    "elements",
+    [
+        [node(11, -37, 144, natural="tree")],
+        [way(21, SQUARE, building="yes")],
+        [way(21, SQUARE, name="no key of a feature")],
+        [node(11, -37, 144, natural="tree"), way(21, SQUARE, building="yes")],
+    ],
+)
+def test_swapped_coordinates_are_refused(read: Read, write: Write, elements: list[str]) -> None:
+    path = write("map.osm", swapped(*elements))
+    for options in ({}, {"bbox": BOX}):
+        with pytest.raises(LandmarkError, match=r"all \d+ nodes are out of range.* look swapped"):
+            read(path, **options)
+
+
+def test_a_lone_building_without_its_nodes_is_no_swap(read: Read, write: Write) -> None:
+    landmarks = read(write("map.osm", xml(way(21, (1, 2, 99, 4, 1), building="yes"))), bbox=BOX)
+    assert len(landmarks) == 0
+    assert landmarks.report.notes[0] == f"1 elements {LOST}"
+
+
+def test_coordinates_that_are_no_numbers(read: Read, write: Write) -> None:
+    text = xml(*TREES).replace('lat="47.0007"', 'lat="250"', 1)
+    with pytest.raises(LandmarkError, match=r"not readable OpenStreetMap data.*'250'"):
+        read(write("map.osm", text))

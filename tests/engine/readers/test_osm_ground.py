@@ -107,14 +107,14 @@ def test_open_sea_is_unknown(survey: Survey) -> None:
     assert landmarks.surveyed is not None
     assert shapely.is_valid(landmarks.surveyed)
     assert seen(landmarks, 500, 3000)
-    assert seen(landmarks, 900 + 170, 3000)  # two cells of 125 m beyond that of the last tree
-    assert not seen(landmarks, 900 + 390, 3000)
+    assert seen(landmarks, 900 + 120, 3000)  # one cell of 125 m beyond that of the last tree
+    assert not seen(landmarks, 900 + 255, 3000)
     assert not seen(landmarks, 5000, 3000)
     west, south, east, north = landmarks.bbox
     # The last trees stand at 900 m, in a cell that ends up to 125 m farther east: the share seen
-    # is (1150 to 1275) / 6000, 19 to 21 %.
+    # is (1025 to 1150) / 6000, 17 to 19 %.
     share = landmarks.surveyed.area / ((east - west) * (north - south))
-    assert 0.19 < share < 0.215
+    assert 0.17 < share < 0.193
     (note,) = landmarks.report.notes
     assert (
         note
@@ -228,7 +228,7 @@ def test_the_option_cuts_the_surveyed_area(survey: Survey) -> None:
     assert landmarks.surveyed is not None
     assert landmarks.report.outside > 0
     (note,) = landmarks.report.notes
-    assert 57 <= int(note.split()[0]) <= 62  # 1 - (1150 to 1275) / 3000
+    assert 61 <= int(note.split()[0]) <= 66  # 1 - (1025 to 1150) / 3000
     assert shapely.box(*landmarks.bbox).buffer(5).covers(landmarks.surveyed)
     inside = LONGITUDE, LATITUDE, LONGITUDE + 900 * EAST, LATITUDE + 3000 * NORTH
     assert survey(town(), bbox=inside).surveyed is None
@@ -298,3 +298,24 @@ def test_monaco(shared: Path, read: Read) -> None:
 
 def test_helsinki_is_surveyed_throughout(shared: Path, read: Read) -> None:
     assert read(shared / "data" / "osm" / "helsinki.osm.pbf").surveyed is None
+
+
+def test_the_strip_around_the_last_objects_is_narrow(survey: Survey) -> None:
+    """One cell beyond the object's own: at least 125 m, at most 250 m."""
+    extract = town()
+    extract.way([(1000, 3000), (5900, 3000)], natural="coastline")
+    landmarks = survey(extract)
+    assert seen(landmarks, 3500, 3120)
+    assert not seen(landmarks, 3500, 3255)
+
+
+def test_gaps_in_a_town_are_closed(survey: Survey) -> None:
+    """Between streets 240 m apart, and in a block of 1 km that streets enclose."""
+    extract = town()
+    for y in (1000, 1240, 2240):
+        extract.way([(1000, y), (5000, y)], highway="residential")
+    for x in (1000, 5000):
+        extract.way([(x, 1000), (x, 2240)], highway="residential")
+    landmarks = survey(extract)
+    assert seen(landmarks, 3000, 1120)
+    assert seen(landmarks, 3000, 1740)

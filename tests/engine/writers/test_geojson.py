@@ -6,6 +6,7 @@ import json
 import os
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -289,3 +290,22 @@ def test_small_maps_get_finer_coordinates(make_map: Make) -> None:
     assert Content(make_map(bbox=box)).decimals == 6
     assert Content(make_map(Frame.around(9.5, 47.1), bbox=box)).decimals == 11
     assert Content(make_map(Frame.around(9.5, 47.1), bbox=(0, 0, 5000, 5000))).decimals == 7
+
+
+@pytest.mark.parametrize(
+    "folder", ["/home/somebody/hidden-away/", "hidden-away/", "C:\\hidden-away\\", ""]
+)
+@pytest.mark.parametrize("ending", ["geojson", "ttl", "nq", "html"])
+def test_folders_are_not_published(
+    make_town: Make, tmp_path: Path, folder: str, ending: str
+) -> None:
+    found = make_town(report=ReadReport(f"{folder}a, b.csv"))
+    own = f"{folder}one.ttl, {folder}two.ttl"
+    found = replace(found, knowledge=replace(found.knowledge, source=own))
+    write_map(found, tmp_path / f"map.{ending}")
+    text = (tmp_path / f"map.{ending}").read_text(encoding="utf-8")
+    assert "a, b.csv" in text
+    assert ("one.ttl, two.ttl" in text) is (ending != "geojson")  # which has only its hash
+    assert "somebody" not in text
+    assert "hidden-away" not in text
+    assert found.landmarks.report.source == f"{folder}a, b.csv"

@@ -86,7 +86,10 @@ def test_empty_map(make_map: Make, frame: Frame | None, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", ["a$b$c_{.geojson", "地図 <&>.geojson", "caf\udce9", "", "-"])
 def test_any_name_can_be_a_title(make_town: Make, tmp_path: Path, name: str) -> None:
-    picture(make_town(report=ReadReport(name)), tmp_path)
+    pixels = picture(make_town(report=ReadReport(name)), tmp_path)
+    assert pixels.shape == (1200, 1600, 3)
+    assert (pixels[40:85, 40:400] < 100).all(-1).sum() > 500  # ink of the title
+    assert at(pixels, 50, -30) == [0xB0, 0x4A, 0x5A]  # and the map below it
 
 
 def test_attribution_stands_below_the_map(make_town: Make, tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -99,7 +100,12 @@ def test_geojson_of_others_needs_only_the_contract(tmp_path: Path) -> None:
         ("map.geojson", "[]", "no environment map"),
         ("map.geojson", '{"features": [{"properties": null}]}', "no environment map"),
         ("map.geojson", '{"features": [{"properties": {"class": "House"}}]}', "segment_id"),
+        ("map.geojson", "[" + "1" * 5000 + "]", "with a number of thousands of digits$"),
+        ("map.geojson", "[" * 100_000, "nested too deeply"),
+        ("map.geojson", '{"symboslam": {"features": "x"}, "features": []}', "damaged: a part"),
+        ("map.geojson", '{"features": [{"properties": "x"}]}', "damaged: a part has a wrong type$"),
         ("map.ttl", "<a> <b", "does not parse"),
+        ("map.ttl", '<urn:a> <urn:b> "c', "does not parse"),
         ("map.nq", "# a map\n\n<a> .", "line 3 is no statement"),
         ("map.nq", "", "holds no sl:EnvironmentMap"),
         ("map.ttl", "", "holds no sl:EnvironmentMap"),
@@ -140,7 +146,11 @@ def test_missing_file(tmp_path: Path, ending: str) -> None:
 
 @pytest.mark.parametrize(
     ("old", "new"),
-    [("sl:count 2", 'sl:count "two"'), ("sl:environment sl:Commercial ;", "")],
+    [
+        ("sl:count 2", 'sl:count "two"'),
+        ("sl:count 2", 'sl:count "INF"'),
+        ("sl:environment sl:Commercial ;", ""),
+    ],
 )
 def test_incomplete_rdf(town: EnvironmentMap, tmp_path: Path, old: str, new: str) -> None:
     write_map(town, tmp_path / "map.ttl")
@@ -149,3 +159,45 @@ def test_incomplete_rdf(town: EnvironmentMap, tmp_path: Path, old: str, new: str
     (tmp_path / "map.ttl").write_text(text.replace(old, new))
     with pytest.raises(InputError, match="no complete environment map"):
         read_map(tmp_path / "map.ttl")
+
+
+PYTHON = re.compile(r"Error|index out of range|object has no|invalid literal|not convert|sys\.")
+
+
+def problem_of(path: Path) -> str:
+    """What the message says, without the file's name; empty if the map is read."""
+    try:
+        read_map(path)
+    except InputError as error:
+        return str(error).replace(str(path), "")
+    return ""
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+def test_damage_is_told_in_plain_words(town: EnvironmentMap, tmp_path: Path, ending: str) -> None:
+    """Files cut anywhere are read or refused, never with words of Python's own."""
+    path = tmp_path / f"map.{ending}"
+    write_map(town, path)
+    whole = path.read_bytes()
+    refused = 0
+    for size in range(0, len(whole), max(len(whole) // 40, 1)):
+        path.write_bytes(whole[:size])
+        problem = problem_of(path)
+        refused += bool(problem)
+        assert not PYTHON.search(problem)
+    assert refused > 20 or ending == "nq"
+
+
+@pytest.mark.parametrize("damaged", ["x", 7, None, [], {}, ["x"], {"x": "y"}])
+@pytest.mark.parametrize("member", ["reasons", "probabilities", "features", "environments"])
+def test_wrong_types_are_told_in_plain_words(
+    town: EnvironmentMap, tmp_path: Path, member: str, damaged: object
+) -> None:
+    path = tmp_path / "map.geojson"
+    write_map(town, path)
+    document = json.loads(path.read_bytes())
+    for holder in (document["symboslam"], document["features"][0]["properties"]):
+        if member in holder:
+            holder[member] = damaged
+    path.write_text(json.dumps(document))
+    assert not PYTHON.search(problem_of(path))

@@ -336,7 +336,7 @@ def test_facts_and_report(make: MakeMap) -> None:
     assert data["title"] == "Old town"
     assert data["attribution"] == line
     assert data["report"]["notes"] == ["Two lines were empty."]
-    assert data["facts"]["Source"] == "maps/old_town.geojson"
+    assert data["facts"]["Source"] == "old_town.geojson"
     assert data["facts"]["Ontology hash"] == "5eed" * 16
     assert data["report"]["unknown"] == [("shop=moon", 2)]
     assert (data["report"]["outside"], data["report"]["duplicates"]) == (4, 1)
