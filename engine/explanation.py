@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from symboslam.engine._base import Contributions
 from symboslam.engine.landmarks import LandmarkMap
@@ -81,25 +80,17 @@ def reasons_of(
     )
     shares = np.zeros((len(classes), len(environments)))
     np.add.at(shares, index, contributions.each / total)
-    found = [
-        _reason(knowledge, int(c), int(n), share, environments)
-        for c, n, share in zip(classes, counts, shares, strict=True)
-        if share.any()
-    ]
     if contributions.ground.any() and knowledge.absence:
         ground = knowledge.index_of(knowledge.absence[0])
         if ground is not None:
-            found.append(_reason(knowledge, ground, 0, contributions.ground / total, environments))
-    return tuple(sorted(found, key=lambda r: -max(map(abs, r.contribution.values()))))
-
-
-def _reason(
-    knowledge: Knowledge,
-    feature: int,
-    count: int,
-    share: NDArray[np.float64],
-    environments: tuple[Environment, ...],
-) -> Reason:
-    known = knowledge.features[feature]
-    parts = {e.name: float(v) for e, v in zip(environments, share, strict=True) if v}
-    return Reason(known.name, known.label, count, parts)
+            classes, counts = np.append(classes, ground), np.append(counts, 0)
+            shares = np.vstack([shares, contributions.ground / total])
+    largest = np.abs(shares).max(1)
+    order = np.argsort(-largest, kind="stable")[: int(np.count_nonzero(largest))]
+    names = [e.name for e in environments]
+    found = []
+    for row in order.tolist():
+        known = knowledge.features[int(classes[row])]
+        parts = {n: v for n, v in zip(names, shares[row].tolist(), strict=True) if v}
+        found.append(Reason(known.name, known.label, int(counts[row]), parts))
+    return tuple(found)
