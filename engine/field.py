@@ -222,8 +222,8 @@ class FieldEvidence(Evidence):
             span = int(self._grid.span(depth))
             near = kernels.near(column * span, (column + 1) * span)
             share = kernels.rows.between(near, row * span, (row + 1) * span)
+            share *= kernels.columns.between(near, column * span, (column + 1) * span)
             near, share = near[share > 0], share[share > 0]
-            share = share * kernels.columns.between(near, column * span, (column + 1) * span)
             share = (share * (HECTARE / (width * height * span**2)))[:, None]
             landmark = kernels.landmark[near]
             own, loss = self._plain[landmark], self._loss[landmark]

@@ -29,9 +29,10 @@ def tell(explanation: Explanation, why: Why, *, against: str | None = None, limi
             f"Segment {explanation.segment_id} is unknown: it was not looked at, "
             "or nothing in and around it says anything."
         )
-    lines = [f"Segment {explanation.segment_id} is {name} (P = {p[name]:.2f})."]
+    first = f"Segment {explanation.segment_id} is {name} (P = {p[name]:.2f})"
     if not explanation.reasons:
-        return f"{lines[0]} The map was written without reasons: classify with --reasons 8."
+        return f"{first}. The map was written without reasons: classify with --reasons 8."
+    lines = [f"{first}. What stands in and around it adds up to that:"]
     lines += _told(explanation, name, why, limit)
     other = against or explanation.runner_up
     if other and other != name:
@@ -55,7 +56,7 @@ def _told(explanation: Explanation, environment: str, why: Why, limit: int) -> l
 
 
 def _line(reason: Reason, environment: str, why: Why) -> str:
-    subject = f"{reason.count} x {reason.label} in and around" if reason.count else reason.label
+    subject = f"{reason.count} x {reason.label}" if reason.count else reason.label
     indication = why(reason.feature, environment)
     because = f": {indication.reason}" if indication and indication.reason else ""
     if indication and indication.steps:

@@ -140,3 +140,11 @@ def _cell(found: Any, row: int, column: int) -> Any:
     from symboslam.engine.grid import Cells
 
     return Cells(np.array([3]), np.array([row]), np.array([column]))
+
+
+def test_only_landmarks_within_reach_have_a_say(knowledge: Knowledge, landmarks_at: Any) -> None:
+    rows = [("House", 100, 100), ("House", 1900, 100), ("Shop", 100, 1900), ("Tree", 1900, 1900)]
+    found = classify(landmarks_at(rows, (0, 0, 2000, 2000)), knowledge, bandwidth=40, cells=8)
+    (parts,) = found.contributions([found.position_of("3-0-0")])
+    assert parts.landmark.tolist() == [0]
+    assert (parts.own[:, 0] > 0).all()

@@ -95,6 +95,7 @@ def show(*what: object, error: bool = False) -> None:
 
     stream = sys.stderr if error else sys.stdout
     width = None if stream.isatty() else 110
-    console = Console(stderr=error, width=width, highlight=False, soft_wrap=False)
+    console = Console(stderr=error, width=width, highlight=False)
     for thing in what:
-        console.print(thing, markup=False) if isinstance(thing, str) else console.print(thing)
+        text = isinstance(thing, str)
+        console.print(thing, markup=not text, soft_wrap=text)
