@@ -249,3 +249,12 @@ def test_findings_have_exit_code_1(run: Any, tmp_path: Path) -> None:
 @pytest.mark.usefixtures("java")
 def test_our_own_ontology_is_clean(run: Any) -> None:
     assert run("ontology", "check").code == 0
+
+
+def test_a_reader_that_has_seen_enough_is_no_error(town: Path) -> None:
+    command = f"{sys.executable} -m symboslam classify {town} --out - -q | head -c 10"
+    done = subprocess.run(
+        ["bash", "-c", f"set -o pipefail; {command}"], capture_output=True, text=True, timeout=60
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stderr == ""

@@ -49,10 +49,11 @@ def main() -> None:
     try:
         app()
     except SymboSlamError as error:
+        if isinstance(error.__cause__, BrokenPipeError):
+            _stop_quietly()
         _fail(str(error), error.exit_code)
     except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        sys.exit(0)
+        _stop_quietly()
     except KeyboardInterrupt:
         _fail("interrupted", 130)
     except MemoryError:
@@ -65,6 +66,12 @@ def main() -> None:
             "(SYMBOSLAM_DEBUG=1 shows where)",
             3,
         )
+
+
+def _stop_quietly() -> None:
+    """Whoever reads our output has seen enough, as ``head`` does: that is no error."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    sys.exit(0)
 
 
 def _fail(message: str, code: int) -> None:
