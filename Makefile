@@ -27,7 +27,8 @@ help: ## list the targets
 
 $(STAMP): .venv/.created pyproject.toml constraints.txt
 	@echo "Installing SymboSLAM and its tools into .venv (about a minute the first time) ..."
-	$(PY) -m pip install --quiet --disable-pip-version-check -c constraints.txt hatchling
+	$(PY) -m pip install --quiet --disable-pip-version-check -c constraints.txt \
+	  hatchling setuptools
 	$(PY) -m pip install --quiet --disable-pip-version-check -c constraints.txt \
 	  --no-build-isolation -e '.[dev]'
 	rm -f .venv/.installed-*
