@@ -107,8 +107,7 @@ def check_ontology(paths: Sequence[str | Path] | str | Path | None = None) -> Re
     stated = Statements(read.graph)
     counts = Report(source, classes=len(stated.classes), indications=len(stated.indications))
     found = [
-        Finding("missing-import", iri, f"the import <{iri}> was not found beside the file")
-        for iri in read.missing
+        Finding(note.kind, note.subject, note.message) for note in read.notes
     ]
     try:
         classes = reason(read)

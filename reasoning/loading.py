@@ -83,7 +83,7 @@ def _load_bundled(cache: bool) -> Knowledge:
 
 def _load_files(paths: list[Path], cache: bool) -> Knowledge:
     source = ", ".join(str(path) for path in paths)
-    bundled = files.bundled_hash()
+    bundled = files.closure_hash()
     given = {f"{i} {p.name}": files.digest(files.read_bytes(p)) for i, p in enumerate(paths)}
     key = f"{files.combined_digest({**given, 'bundled': bundled})[:40]}-{store.FORMAT}"
     kept = store.read_cache(key, source) if cache else None

@@ -17,6 +17,8 @@ from symboslam.reasoning.vocabulary import OWL_NAMESPACE
 if TYPE_CHECKING:
     from rdflib import Graph
 
+    from symboslam.reasoning.located import LocatedGraph
+
 _BY_EXTENSION = {
     ".ttl": "turtle",
     ".n3": "turtle",
@@ -32,6 +34,7 @@ _UNSUPPORTED = ("Manchester syntax", "functional syntax", "OBO format")
 EXTENSIONS = (".ttl", ".owl", ".rdf", ".xml", ".owx", ".nt", ".n3", ".jsonld", ".json")
 """Extensions that an ontology file may have here; the content decides where they do not."""
 
+_RDF_XML_ERROR = re.compile(r"[^\s]*?:(\d+):\d+: (.*)", re.DOTALL)  # base:line:column: problem
 _XML_START = re.compile(rb"<(\?xml|!|[\w.-]+(:[\w.-]+)?\s)")  # not <http://...>
 
 # A document may not grow by more than this when its entities are expanded ("billion laughs").
@@ -39,8 +42,8 @@ _EXPANSION_FACTOR, _EXPANSION_FREE = 10, 1_000_000
 _DEEPEST = 100  # levels of an expression
 
 
-def parse(name: str, data: bytes) -> Graph:
-    """The graph of an ontology file.
+def parse(name: str, data: bytes) -> LocatedGraph:
+    """The graph of an ontology file, with the line of each triple where the format has lines.
 
     Args:
         name: the file's name, for its extension and for messages.
@@ -50,9 +53,9 @@ def parse(name: str, data: bytes) -> Graph:
         OntologySyntaxError: it does not parse, its format is not supported, or it asks for
             something outside itself (external XML entities, remote JSON-LD contexts).
     """
-    from rdflib import Graph
+    from symboslam.reasoning.located import LocatedGraph, parse_rdf_xml, parse_turtle
 
-    graph = Graph()
+    graph = LocatedGraph()
     data = data.removeprefix(codecs.BOM_UTF8)
     try:
         language = _language(name, data)
@@ -69,7 +72,7 @@ def parse(name: str, data: bytes) -> Graph:
         elif language == "json-ld":
             _parse_json_ld(name, data, base, graph)
         else:
-            graph.parse(data=data, format=language, publicID=base)
+            (parse_turtle if language == "turtle" else parse_rdf_xml)(graph, data, base)
     except OntologySyntaxError:
         raise
     except RecursionError:
@@ -90,16 +93,18 @@ def _error(name: str, line: int | None, problem: str) -> OntologySyntaxError:
 
 def _place(error: Exception) -> tuple[int | None, str]:
     """Line and problem in an error of one of the parsers."""
-    if hasattr(error, "lines") and hasattr(error, "_why"):  # rdflib's Turtle
-        return int(error.lines) + 1, str(error._why)
+    if hasattr(error, "_str") and hasattr(error, "_why"):  # rdflib's Turtle
+        # Its own count of lines goes wrong where the parser stepped back.
+        text = error._str.decode()
+        end = getattr(error, "_i", -1)
+        read = text[:end] if end >= 0 else text.rstrip()
+        return read.count("\n") + 1, str(error._why)
     if isinstance(error, SAXParseException):
         return error.getLineNumber(), str(error.getMessage())
     if isinstance(error, json.JSONDecodeError):
         return error.lineno, error.msg
-    head, _, rest = str(error).partition(":")
-    line, _, problem = rest.partition(":")
-    if head == "None" and line.isdigit():  # rdflib's RDF/XML: "None:line:column: problem"
-        return int(line), problem.partition(":")[2].strip()
+    if found := _RDF_XML_ERROR.match(str(error)):
+        return int(found[1]), found[2].strip()
     return None, " ".join(str(error).split()) or type(error).__name__
 
 

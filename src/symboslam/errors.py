@@ -9,6 +9,7 @@
     │   └── UnknownNameError    a feature, environment, scheme or segment that does not exist
     ├── OntologyError           an ontology that cannot be used (exit code 2)
     │   ├── OntologySyntaxError       it does not parse
+    │   ├── ImportsError              an import that is not found, or that leads back to its start
     │   ├── InconsistentOntologyError it contradicts itself; carries the clashing axioms
     │   └── EmptyOntologyError        it declares no environments or no indications
     ├── OutputError             a result could not be written; what was there before is kept (2)
@@ -57,6 +58,10 @@ class OntologyError(SymboSlamError):
 
 class OntologySyntaxError(OntologyError):
     """An ontology file that does not parse."""
+
+
+class ImportsError(OntologyError):
+    """An import that is not found, or imports that go round in a circle."""
 
 
 class InconsistentOntologyError(OntologyError):

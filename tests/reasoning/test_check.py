@@ -22,15 +22,18 @@ def found(report: Report, kind: str) -> set[str]:
     return {f"{f.subject}: {f.message}" for f in report.findings if f.kind == kind}
 
 
+FINDINGS = Path(__file__).parents[1] / "resources" / "reasoning" / "findings.ttl"
+
+
 @pytest.fixture(scope="module")
 def report() -> Report:
-    return check_ontology(Path(__file__).parents[1] / "resources" / "reasoning" / "findings.ttl")
+    return check_ontology(FINDINGS)
 
 
 EXPECTED = {
     "missing-import": {
-        "https://example.org/nowhere: the import <https://example.org/nowhere> was not found "
-        "beside the file"
+        f"https://example.org/nowhere: {FINDINGS}: line 8: the import "
+        "<https://example.org/nowhere> was not found beside the file"
     },
     "missing-strength": {
         "House: House indicates Cave: has several strengths",

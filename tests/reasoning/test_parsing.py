@@ -235,3 +235,15 @@ def test_endless_expression() -> None:
     )
     with pytest.raises(OntologySyntaxError, match="contains itself"):
         parse("a.ttl", data)
+
+
+def test_line_of_an_error_after_steps_back() -> None:
+    """rdflib's parser counts a line again whenever it steps back over it."""
+    blank = b"# words\n" * 40
+    data = (
+        b"@prefix : <urn:x#> .\n:a :b :c ;\n\n\n  :d ( :e\n\n :f ) .\n"
+        + blank
+        + b":a :b ;;; nonsense .\n"
+    )
+    with pytest.raises(OntologySyntaxError, match=r"a\.ttl: line 48: "):
+        parse("a.ttl", data)

@@ -40,7 +40,7 @@ def test_bundled() -> None:
 def test_core_is_always_there(tmp_path: Path) -> None:
     for imports in ((), (DOCUMENTS + "core",)):
         read = sources.read_files([ontology(tmp_path / "a.ttl", "urn:a", *imports)])
-        assert documents(read) == {"urn:a", DOCUMENTS + "core"}
+        assert documents(read) == {"urn:a", DOCUMENTS + "core", DOCUMENTS + "external"}
         assert (URIRef(SL + "indicates"), RDF.type, OWL.ObjectProperty) in read.graph
         assert (URIRef(SL + "Residential"), None, None) not in read.graph
         assert read.files.keys() == {"a.ttl"}
@@ -50,7 +50,7 @@ def test_core_is_always_there(tmp_path: Path) -> None:
 def test_bundled_module_brings_its_imports(tmp_path: Path) -> None:
     path = ontology(tmp_path / "a.ttl", "urn:a", DOCUMENTS + "places")
     read = sources.read_files([path])
-    expected = {DOCUMENTS + name for name in ("core", "environments", "places")}
+    expected = {DOCUMENTS + name for name in ("core", "external", "environments", "places")}
     assert documents(read) == {"urn:a", *expected}
 
 
@@ -69,7 +69,7 @@ def test_files_beside_are_found(tmp_path: Path) -> None:
     read = sources.read_files([main])
     assert documents(read) == {
         "urn:main", "urn:by-name", "urn:with-end", "https://example.org/by#iri/", "urn:deeper",
-        "urn:newer", DOCUMENTS + "core",
+        "urn:newer", DOCUMENTS + "core", DOCUMENTS + "external",
     }  # fmt: skip
     assert read.files.keys() == {
         "main.ttl", "by-name.owl", "with-end.ttl", "other.ttl", "deeper.ttl", "newer.ttl",
