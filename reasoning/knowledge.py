@@ -10,8 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from symboslam.errors import UnknownNameError
-from symboslam.reasoning.matching import TagMatcher, name_index
+from symboslam.reasoning.matching import TagMatcher, name_index, unknown_name
 
 Floats = NDArray[np.float64]
 
@@ -190,7 +189,7 @@ class Knowledge:
         """
         if (feature := self.find_feature(name)) is None:
             known = [n for f in self.features for n in (f.name, f.detector_label or f.name)]
-            raise _unknown("feature", name, known)
+            raise unknown_name("feature", name, known)
         return feature
 
     def match_tags(self, tags: Mapping[str, str]) -> int | None:
@@ -240,7 +239,7 @@ class Knowledge:
             UnknownNameError: there is no such measure or scheme.
         """
         if measure not in self.proximities:
-            raise _unknown("proximity measure", measure, list(self.proximities))
+            raise unknown_name("proximity measure", measure, list(self.proximities))
         return self.proximities[measure][:, self._columns(scheme)]
 
     def importance(self, measure: str = "path", scheme: str | None = None) -> Floats:
@@ -269,7 +268,7 @@ class Knowledge:
             UnknownNameError: there is no such measure, scheme or importance.
         """
         if importance not in ("entropy", "none"):
-            raise _unknown("importance", importance, ["entropy", "none"])
+            raise unknown_name("importance", importance, ["entropy", "none"])
         proximity = self.proximity(measure, scheme)
         if importance == "none":
             return proximity
@@ -326,17 +325,5 @@ class Knowledge:
     def _columns(self, scheme: str | None) -> list[int]:
         name = next(iter(self.schemes)) if scheme is None else scheme
         if name not in self.schemes:
-            raise _unknown("scheme", name, list(self.schemes))
+            raise unknown_name("scheme", name, list(self.schemes))
         return [k for k, e in enumerate(self.environments) if e.name in self.schemes[name]]
-
-
-def _unknown(kind: str, name: str, known: list[str]) -> UnknownNameError:
-    from difflib import get_close_matches
-
-    by_case = {n.casefold(): n for n in known}
-    close = [by_case[n] for n in get_close_matches(name.casefold(), by_case, n=4, cutoff=0.6)]
-    if close:
-        hint = f"; did you mean {' or '.join(close)}?"
-    else:
-        hint = f"; there are: {', '.join(known)}" if len(known) <= 12 else ""
-    return UnknownNameError(f"there is no {kind} {name!r}{hint}")

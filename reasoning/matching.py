@@ -1,10 +1,11 @@
-"""Find the feature that a name or a set of OpenStreetMap tags means."""
+"""Find the feature that a name or a set of OpenStreetMap tags means, or what comes close."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from symboslam.errors import UnknownNameError
 from symboslam.reasoning.vocabulary import local_name
 
 if TYPE_CHECKING:
@@ -95,3 +96,16 @@ class TagMatcher:
         general = {kind for i in candidates for kind in self._features[i].kinds}
         special = [i for i in candidates if self._features[i].name not in general]
         return min(special, key=lambda i: (-self._informativeness[i], i), default=None)
+
+
+def unknown_name(kind: str, name: str, known: list[str]) -> UnknownNameError:
+    """The error for a name that nothing bears, which lists what comes close."""
+    from difflib import get_close_matches
+
+    by_case = {n.casefold(): n for n in known}
+    close = [by_case[n] for n in get_close_matches(name.casefold(), by_case, n=4, cutoff=0.6)]
+    if close:
+        hint = f"; did you mean {' or '.join(close)}?"
+    else:
+        hint = f"; there are: {', '.join(known)}" if len(known) <= 12 else ""
+    return UnknownNameError(f"there is no {kind} {name!r}{hint}")

@@ -35,6 +35,14 @@ SchemeOption = Annotated[
         show_default="the ontology's own",
     ),
 ]
+LenientOption = Annotated[
+    bool,
+    typer.Option(
+        "--lenient-imports",
+        help="Read on where an import is missing or goes in a circle, or a file begins with a "
+        "byte-order mark.",
+    ),
+]
 
 
 @contextmanager

@@ -1,0 +1,98 @@
+"""All the minimal sets of axioms that make an ontology clash, one after the other.
+
+Reiter's hitting set tree: each minimal set must lose an axiom for the clash to go away, so every
+further one is found in the ontology without some axiom of each that is known (A. Kalyanpur,
+B. Parsia, M. Horridge, E. Sirin: Finding all justifications of OWL DL entailments, ISWC 2007).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from time import monotonic
+
+from rdflib import OWL
+
+from symboslam.reasoning._base import Reasoner
+from symboslam.reasoning.axioms import Axiom, Triple
+from symboslam.reasoning.clash import explain
+from symboslam.reasoning.locality import module
+
+_UNORDERED = (
+    OWL.disjointWith, OWL.inverseOf, OWL.equivalentClass, OWL.equivalentProperty,
+    OWL.propertyDisjointWith, OWL.sameAs, OWL.differentFrom,
+)  # fmt: skip
+
+
+def minimal_sets(
+    reasoner: Reasoner,
+    declared: Iterable[Triple],
+    axioms: Sequence[Axiom],
+    unsatisfiable: str | None,
+    limit: int,
+    seconds: float,
+) -> tuple[list[list[Axiom]], bool]:
+    """Minimal sets of axioms that clash, and whether these are all of them.
+
+    Args:
+        reasoner: decides what clashes.
+        declared: declarations of the ontology.
+        axioms: its axioms; empty sets are returned if they do not clash.
+        unsatisfiable: the class that can have no members; None for an inconsistent ontology.
+        limit: how many sets to look for.
+        seconds: time limit; what is found later than that may be not quite minimal, so that the
+            search ends with it.
+    """
+    end = monotonic() + seconds
+    axioms = module(_each_once(axioms), [unsatisfiable] if unsatisfiable else [])
+    names = {name for axiom in axioms for name in axiom.signature}
+    declared = [triple for triple in declared if triple[0] in names]
+
+    def without(path: Iterable[Axiom]) -> list[Axiom]:
+        return [axiom for axiom in axioms if axiom not in path]
+
+    found: list[list[Axiom]] = []
+    harmless: set[frozenset[Axiom]] = set()  # without these the clash is gone
+    level: set[frozenset[Axiom]] = {frozenset()}
+    while level:
+        if len(found) >= limit or monotonic() > end:
+            return found, False
+        level = {path for path in level if not any(gone <= path for gone in harmless)}
+        order = sorted(level, key=lambda path: sorted(axiom.text for axiom in path))
+        answers = _all_answers(reasoner, declared, [without(p) for p in order], unsatisfiable)
+        harmless |= {path for path, clashes in zip(order, answers, strict=True) if not clashes}
+        deeper: set[frozenset[Axiom]] = set()
+        for path, clashes in zip(order, answers, strict=True):
+            if not clashes:
+                continue
+            known = next((one for one in found if path.isdisjoint(one)), None)
+            if known is None:
+                if len(found) >= limit or monotonic() > end:
+                    return found, False
+                known = explain(reasoner, declared, without(path), unsatisfiable, end - monotonic())
+                found.append(known)
+            deeper |= {path | {axiom} for axiom in known}
+        level = deeper
+    return found, True
+
+
+def _each_once(axioms: Sequence[Axiom]) -> list[Axiom]:
+    """Axioms without those that say what another one does, with its two sides changed over."""
+    kept: dict[object, Axiom] = {}
+    for axiom in axioms:
+        sides = frozenset((axiom.subject, axiom.object))
+        kept.setdefault((axiom.predicate, sides) if axiom.predicate in _UNORDERED else axiom, axiom)
+    return list(kept.values())
+
+
+def _all_answers(
+    reasoner: Reasoner,
+    declared: list[Triple],
+    candidates: list[list[Axiom]],
+    unsatisfiable: str | None,
+) -> list[bool]:
+    """Which candidates clash; a reasoner may end with the first one, and is asked again."""
+    ontologies = [[*declared, *(t for a in c for t in a.triples)] for c in candidates]
+    answers: list[bool] = []
+    while len(answers) < len(ontologies):
+        answers += reasoner.clashes(ontologies[len(answers) :], unsatisfiable)
+    return answers
