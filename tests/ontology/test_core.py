@@ -5,16 +5,14 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Iterator
 from pathlib import Path
-from xml.etree import ElementTree
 
 import pytest
 from rdflib import OWL, RDF, RDFS, XSD, Graph, Literal, Namespace, URIRef
 from rdflib.collection import Collection
-from rdflib.namespace import DCTERMS, PROV, SKOS
+from rdflib.namespace import PROV, SKOS
 from rdflib.term import Node
 
 FOLDER = Path(__file__).resolve().parents[2] / "ontology"
-DOCUMENTS = "https://w3id.org/symboslam/"
 SL = Namespace("https://w3id.org/symboslam#")
 
 ENVIRONMENTS = (
@@ -153,52 +151,6 @@ def environments_of(graph: Graph, place: Node) -> set[str]:
         waiting += [c for c in graph.objects(one, RDFS.subClassOf) if isinstance(c, URIRef)]
         waiting += [filler for _, filler in restrictions(graph, one, SL.partOf)]
     return reached
-
-
-def test_every_module_has_a_complete_header(modules: Ontology) -> None:
-    for stem, graph in modules.items():
-        document = URIRef(DOCUMENTS + stem)
-        assert set(graph.subjects(RDF.type, OWL.Ontology)) == {document}
-        words(graph, document, DCTERMS.title)
-        words(graph, document, DCTERMS.description)
-        comment = words(graph, document, RDFS.comment)
-        assert "Scope:" in comment, stem
-        assert "Design choice:" in comment, stem
-        assert graph.value(document, DCTERMS.creator) == Literal("SymboSLAM contributors"), stem
-        assert graph.value(document, DCTERMS.license) == URIRef(
-            "https://creativecommons.org/licenses/by/4.0/"
-        ), stem
-        version = graph.value(document, OWL.versionInfo)
-        assert graph.value(document, OWL.versionIRI) == URIRef(f"{DOCUMENTS}{version}/{stem}")
-
-
-def test_imports_exist_and_cover_every_term_used(modules: Ontology) -> None:
-    imports = {
-        stem: {str(o).removeprefix(DOCUMENTS) for o in graph.objects(None, OWL.imports)}
-        for stem, graph in modules.items()
-    }
-    declared = {
-        stem: {s for s in graph.subjects(RDF.type, None) if str(s).startswith(SL)}
-        for stem, graph in modules.items()
-    }
-    assert imports["core"] == set()
-    for stem, graph in modules.items():
-        assert imports[stem] <= set(modules), f"{stem} imports an unknown module"
-        reached, waiting = set[str](), [stem]
-        while waiting:
-            one = waiting.pop()
-            if one not in reached:
-                reached.add(one)
-                waiting += imports[one]
-        known = set[Node]().union(*(declared[one] for one in reached))
-        used = {t for triple in graph for t in triple if str(t).startswith(SL)}
-        assert used <= known, f"{stem}: not imported: {sorted(map(name, used - known))[:5]}"
-
-
-def test_the_catalog_names_every_module(modules: Ontology) -> None:
-    catalog = ElementTree.parse(FOLDER / "catalog-v001.xml").getroot()
-    entries = {entry.get("name"): entry.get("uri") for entry in catalog}
-    assert entries == {DOCUMENTS + stem: f"{stem}.ttl" for stem in modules}
 
 
 def test_every_class_and_property_has_a_label_and_a_definition(merged: Graph) -> None:

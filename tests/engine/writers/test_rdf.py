@@ -160,7 +160,7 @@ def test_geometries_name_their_coordinate_system(make_town: Make, tmp_path: Path
 
 def test_every_term_is_defined_in_the_ontology(graph: Graph) -> None:
     ontology = Graph()
-    for name in ("core.ttl", "map.ttl", "environments.ttl"):
+    for name in ("core.ttl", "external.ttl", "map.ttl", "environments.ttl"):
         ontology.parse(data=(files("symboslam.ontology") / name).read_bytes(), format="turtle")
     defined = set(ontology.subjects(RDF.type))
     given = {SL[n] for n in ("House", "Shop", "Tree", "OpenGround", "source-judgement")}

@@ -85,7 +85,7 @@ BROKEN = {
     "landmark of a class that nobody observed": (
         "DELETE DATA { landmark:n0 sl:featureClass sl:House } ;"
         "INSERT DATA { landmark:n0 sl:featureClass sl:Shop }",
-        "A landmark needs an observation that found the class",
+        "None of the landmark's observations found the class",
     ),
     "landmark without geometry": (
         "DELETE WHERE { landmark:n0 geo:hasGeometry ?g }",
@@ -94,7 +94,7 @@ BROKEN = {
     "geometry without a coordinate system": (
         "DELETE { ?g geo:asWKT ?w } INSERT { ?g geo:asWKT 'POINT (1 2)'^^geo:wktLiteral }"
         "WHERE { landmark:n0 geo:hasGeometry ?g . ?g geo:asWKT ?w }",
-        "Exactly one geometry is needed: WKT with the IRI",
+        "A geometry is a geo:Geometry with one geo:wktLiteral that has the IRI",
     ),
     "landmark without observation": (
         "DELETE WHERE { observation:n0 ?p ?o }",
@@ -126,7 +126,7 @@ BROKEN = {
     "segment with an environment that is not considered": (
         "DELETE DATA { segment:0-0-0 sl:environment sl:Residential } ;"
         "INSERT DATA { segment:0-0-0 sl:environment sl:Military }",
-        "the environment must be one that the map considers",
+        "environment of a segment must be one that its map considers",
     ),
     "segment without its classification": (
         "DELETE WHERE { classification:0-0-0 ?p ?o }",
@@ -217,6 +217,41 @@ def test_the_report_names_the_node_and_the_value(turtle: Path) -> None:
     assert violation.node == "https://example.org/town/observation/n0"
     assert violation.value == "yesterday"
     assert violation.path == "http://www.w3.org/ns/sosa/resultTime"
+    assert all(part in str(violation) for part in (violation.node, violation.path, "yesterday"))
+
+
+def test_the_report_says_where_a_node_without_a_name_is(turtle: Path) -> None:
+    graph = read_graph(turtle)
+    update, _ = BROKEN["confidence above 1"]
+    graph.update(PREFIXES + update)
+    (violation,) = validate_map(graph).violations
+    assert violation.within == "https://example.org/town/observation/n0"
+    assert str(violation).startswith("https://example.org/town/observation/n0 (a part of it")
+    assert str(validate_map(graph)).startswith("1 violation:\n")
+
+
+def test_paths_of_several_steps_are_written_as_in_sparql(turtle: Path) -> None:
+    graph = read_graph(turtle)
+    graph.update(PREFIXES + "DELETE WHERE { observation:n0 ?p ?o }")
+    paths = {violation.path for violation in validate_map(graph).violations}
+    assert "^http://www.w3.org/ns/sosa/hasFeatureOfInterest" in paths
+
+
+def test_shapes_of_ones_own(turtle: Path, tmp_path: Path) -> None:
+    mine = tmp_path / "mine.ttl"
+    prefixes = PREFIXES.replace("PREFIX", "@prefix").replace(">\n", "> .\n")
+    mine.write_text(
+        prefixes + "@prefix sh: <http://www.w3.org/ns/shacl#> .\n"
+        "m:Few a sh:NodeShape ; sh:targetClass sl:LandmarkSet ; sh:property [\n"
+        "  sh:path sl:landmarkCount ; sh:maxInclusive 4 ; sh:message 'Too many.'@en ] ."
+    )
+    (violation,) = validate_map(turtle, mine).violations
+    assert (violation.message, violation.value) == ("Too many.", "5")
+    mine.write_text(mine.read_text().replace("sh:maxInclusive 4", "sh:minLength 'few'"))
+    with pytest.raises(InputError, match=r"mine\.ttl: no usable shapes"):
+        validate_map(turtle, mine)
+    with pytest.raises(InputError, match="holds no SHACL shapes"):
+        validate_map(turtle, turtle)
 
 
 def test_files_that_cannot_be_validated(tmp_path: Path) -> None:
