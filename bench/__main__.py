@@ -10,6 +10,7 @@ from pathlib import Path
 
 from bench import cases
 from bench.measure import machine
+from bench.reasoning import reasoning
 
 CASES: dict[str, tuple[Callable[[], str], Callable[[], str]]] = {
     # name: (full size, toy size)
@@ -27,6 +28,7 @@ CASES: dict[str, tuple[Callable[[], str], Callable[[], str]]] = {
     ),
     "start-up": (lambda: cases.start_up(11), lambda: cases.start_up(1)),
     "knowledge": (cases.knowledge, cases.knowledge),
+    "reasoning": (lambda: reasoning(5), lambda: reasoning(1)),
 }
 
 

@@ -196,7 +196,7 @@ def knowledge() -> str:
         for name, run in runs.items()
     ]
     return "## Knowledge (`Knowledge.load()` in a fresh process)\n\n" + table(
-        ("what", "seconds", "peak MB without the JVM"), rows
+        ("what", "seconds", "peak MB of the largest process"), rows
     )
 
 

@@ -44,7 +44,7 @@ def call(
 
 
 def process(command: Sequence[str], environment: dict[str, str] | None = None) -> Run:
-    """Run a command to its end; peak memory is the kernel's account of that process alone.
+    """Run a command to its end; peak memory is that of the largest process in it.
 
     Raises:
         RuntimeError: it failed; the message holds what it wrote.

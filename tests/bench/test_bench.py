@@ -37,6 +37,14 @@ def test_knowledge_case_runs(tmp_path: Path) -> None:
     assert "cold build" in done.stdout
 
 
+@pytest.mark.slow
+def test_reasoning_case_runs(tmp_path: Path) -> None:
+    done = run("-m", "bench", "--tiny", "--only", "reasoning")
+    assert done.returncode == 0, done.stderr
+    assert "| HermiT over the whole import closure |" in done.stdout
+    assert "| `symboslam cq run` |" in done.stdout
+
+
 def test_reference_by_hand() -> None:
     """Three landmarks on a 3-4-5 triangle in a segment with a diagonal of 10.
 
