@@ -1,0 +1,1 @@
+"""The questions that the ontology must be able to answer: manifests, queries, answers; no code."""
