@@ -15,7 +15,7 @@ STAMP := .venv/.installed-$(shell pwd -P | cksum | cut -d ' ' -f 1)
 BENCHMARK ?= ../shared/benchmark
 SEED ?= 7
 
-.PHONY: help demo test test-slow lint format bench docs knowledge results picture system wheel clean
+.PHONY: help demo test test-slow lint format bench docs knowledge results picture proofs acceptance system wheel clean
 
 help: ## list the targets
 	@grep -E '^[a-z.][a-z.-]*:.*## ' Makefile | sed -E 's/^([a-z.-]+):.*## /\1\t/' | expand -t 14
@@ -59,8 +59,10 @@ format: $(STAMP) ## mend what ruff can mend
 bench: $(STAMP) ## measure speed and memory, write bench/RESULTS.md (some minutes)
 	@$(PY) -m bench --out bench/RESULTS.md
 
-docs: $(STAMP) ## write docs/cli.md anew from the command line's own help
+docs: $(STAMP) ## write docs/cli.md anew, and pages about the ontology into build/docs
 	@$(PY) scripts/cli_docs.py
+	@$(PY) scripts/glossary.py
+	$(PY) scripts/ontology_docs.py
 
 knowledge: $(STAMP) ## reason over the bundled ontology anew
 	@$(PY) -m symboslam.reasoning.bundle
@@ -71,7 +73,13 @@ results: $(STAMP) ## score against the benchmark in $(BENCHMARK), write docs/res
 picture: demo ## take the picture in the README anew (needs Chromium)
 	@scripts/readme-picture
 
-system: ## install Chromium, which the browser tests drive (Debian or Ubuntu, as root)
+proofs: $(STAMP) ## prove the ontology sound (needs Java; with Maven ROBOT checks it as well)
+	@$(PY) -m pytest $$(grep -rl --include='test_*.py' 'mark\.robot' tests)
+
+acceptance: $(STAMP) ## ask the ontology all questions, write build/acceptance/report.html (needs Java)
+	@$(PY) -m robot --outputdir build/acceptance --console dotted competency_questions/acceptance.robot
+
+system: ## install Chromium, Java and Maven for the tests that need them (Debian, as root)
 	@scripts/install-system
 
 wheel: $(STAMP) ## build wheel and sdist into dist/ and try the wheel in a fresh environment

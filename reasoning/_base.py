@@ -39,6 +39,26 @@ class Hierarchy:
         return frozenset(found)
 
 
+@dataclass(frozen=True)
+class Realization:
+    """What follows for the named individuals of a consistent ontology, and for its classes.
+
+    Attributes:
+        hierarchy: the classes.
+        types: individual -> its most special classes; ``owl:Thing`` is never listed.
+        values: (individual, object property, individual), stated or inferred; what follows by a
+            property's being below another is left to ``properties``.
+        properties: (object property, one above it); the direct ones only.
+        inverses: (object property, one that is above its inverse); the direct ones only.
+    """
+
+    hierarchy: Hierarchy
+    types: Mapping[str, frozenset[str]]
+    values: frozenset[tuple[str, str, str]]
+    properties: frozenset[tuple[str, str]]
+    inverses: frozenset[tuple[str, str]]
+
+
 class Reasoner(ABC):
     """Decides what follows from logical axioms, which it gets as triples.
 
@@ -48,6 +68,15 @@ class Reasoner(ABC):
     @abstractmethod
     def classify(self, triples: Iterable[Triple]) -> Hierarchy | None:
         """The inferred hierarchy of named classes, or None if the ontology is inconsistent.
+
+        Raises:
+            OntologyError: the axioms are outside OWL 2 DL.
+            ReasonerError: the reasoner could not be run.
+        """
+
+    @abstractmethod
+    def realize(self, triples: Iterable[Triple]) -> Realization | None:
+        """What follows for individuals as well, or None if the ontology is inconsistent.
 
         Raises:
             OntologyError: the axioms are outside OWL 2 DL.

@@ -13,12 +13,13 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Iterable
+from itertools import combinations, permutations
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from symboslam.errors import OntologyError, ReasonerError
-from symboslam.reasoning._base import Hierarchy, Reasoner
+from symboslam.reasoning._base import Hierarchy, Realization, Reasoner
 from symboslam.reasoning.vocabulary import NOTHING, THING
 
 if TYPE_CHECKING:
@@ -28,6 +29,11 @@ _MAIN = "org.semanticweb.HermiT.cli.CommandLine"
 # A short run: the quick compiler and the simple collector start faster.
 _JAVA_OPTIONS = ("-Xmx2g", "-XX:TieredStopAtLevel=1", "-XX:+UseSerialGC")
 _RELATION = re.compile(r"^(SubClassOf|EquivalentClasses)\( ((?:<[^>]+>\s*)+)\)", re.MULTILINE)
+_TYPE = re.compile(r"^Type\( <([^>]+)> <([^>]+)> \)", re.MULTILINE)
+_ROLES = re.compile(r"^(SubObjectPropertyOf|EquivalentObjectProperties)\( (.+) \)$", re.MULTILINE)
+_ROLE = re.compile(r"(ObjectInverseOf\( )?<([^>]+)>")
+_VALUES = re.compile(r"^<([^>]+)> \(known instances: (.*?) \| possible instances:", re.MULTILINE)
+_PAIR = re.compile(r"\(<([^>]+)>, <([^>]+)>\)")
 _NOT_DL = ("IllegalArgumentException", "UnsupportedDatatypeException", "MalformedLiteralException")
 
 
@@ -89,6 +95,41 @@ class Hermit(Reasoner):
         if code and "InconsistentOntologyException" in output:
             return None
         self._check(code, output)
+        return self._hierarchy(output)
+
+    def realize(self, triples: Iterable[Triple]) -> Realization | None:
+        """See :meth:`Reasoner.realize`."""
+        code, output = self._run([triples], "-c", "-O", "-I", "-Y")
+        if code and "InconsistentOntologyException" in output:
+            return None
+        self._check(code, output)
+        types: dict[str, set[str]] = {}
+        for individual, kind in _TYPE.findall(output):
+            if kind != THING:
+                types.setdefault(individual, set()).add(kind)
+        properties: set[tuple[str, str]] = set()
+        inverses: set[tuple[str, str]] = set()
+        for relation, named in _ROLES.findall(output):
+            roles = _ROLE.findall(named)
+            pairs = combinations if relation.startswith("Sub") else permutations
+            for (turned, below), (turned_too, above) in pairs(roles, 2):
+                (properties if turned == turned_too else inverses).add((below, above))
+        values = {
+            (one, prop, other)
+            for prop, known in _VALUES.findall(output)
+            for one, other in _PAIR.findall(known)
+        }
+        return Realization(
+            self._hierarchy(output),
+            {name: frozenset(kinds) for name, kinds in types.items()},
+            frozenset(values),
+            frozenset(properties),
+            frozenset(inverses),
+        )
+
+    @staticmethod
+    def _hierarchy(output: str) -> Hierarchy:
+        """The classes in HermiT's output."""
         parents: dict[str, set[str]] = {}
         equals: dict[str, frozenset[str]] = {}
         unsatisfiable: frozenset[str] = frozenset()
@@ -118,7 +159,7 @@ class Hermit(Reasoner):
         self._check(code, output)
         return found
 
-    def _run(self, ontologies: Iterable[Iterable[Triple]], action: str) -> tuple[int, str]:
+    def _run(self, ontologies: Iterable[Iterable[Triple]], *actions: str) -> tuple[int, str]:
         """Exit code and output of one run over several ontologies."""
         from rdflib import Graph
 
@@ -133,7 +174,7 @@ class Hermit(Reasoner):
                 graph.serialize(files[-1], format="nt", encoding="utf-8")
             command = [
                 str(java), *_JAVA_OPTIONS, "-cp", class_path, _MAIN,
-                "--ignoreUnsupportedDatatypes", action, *(file.as_uri() for file in files),
+                "--ignoreUnsupportedDatatypes", *actions, *(file.as_uri() for file in files),
             ]  # fmt: skip
             try:
                 done = subprocess.run(

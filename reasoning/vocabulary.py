@@ -24,6 +24,8 @@ ABSENCE_FEATURE = SL + "absenceFeature"
 DEFAULT_SCHEME = SL + "defaultScheme"
 SITE_RADIUS = SL + "siteRadius"
 BANDWIDTH = SL + "bandwidth"
+UPSTREAM_LABEL = SL + "upstreamLabel"
+IN_UPSTREAM_DATA_ONLY = SL + "inUpstreamDataOnly"
 
 # Ontology documents: DOCUMENTS + "core" is what an ontology of one's own imports.
 DOCUMENTS = "https://w3id.org/symboslam/"
