@@ -129,7 +129,9 @@ class _Part:
     def _question(self, subject: Term, kind: str) -> Question:
         line = self._line(subject)
         own = NamedNode(subject.value) if isinstance(subject, NamedNode) else None
-        identifier = self._one(subject, v.IDENTIFIER) or (own and local_name(own.value))
+        identifier = self._one(subject, v.IDENTIFIER) or (
+            own and local_name(own.value).removesuffix(".ttl")
+        )
         if not identifier:
             raise self.lines.error(line, "a question needs a dcterms:identifier")
         text = self._one(subject, v.HAS_QUESTION) or self._one(subject, v.TITLE)

@@ -30,6 +30,7 @@ _IRI = re.compile(
     rf"(?P<prefix>[^\W\d_][\w.-]*|):(?P<name>{_NAME}|)",
     re.DOTALL,
 )
+_SERVICE = re.compile(r"(?<![\w:?$@.-])SERVICE(?![\w:-])", re.IGNORECASE)
 _BASE = re.compile(r"\bBASE\b", re.IGNORECASE)
 _PLACE = re.compile(r"^error at (\d+):(\d+): ")
 _PREFIX = re.compile(r"PREFIX\s+([^\s:]*):\s*<([^>\s]*)>", re.IGNORECASE)
@@ -42,24 +43,35 @@ def check_syntax(query: Query) -> None:
         InputError: names the file and the line.
     """
     bare = _bare(query.text)
-    if service := re.search(r"\bSERVICE\b", bare, re.IGNORECASE):
+    if service := _SERVICE.search(bare):
         line = bare[: service.start()].count("\n") + 1
         raise _error(query, line, "SERVICE asks another server, which is not done here")
     try:
         Store().query(query.text, prefixes=dict(query.prefixes), base_iri=_base(query))
     except SyntaxError as error:
-        text = str(error.msg or error)
-        place = _PLACE.match(text)
-        line = int(place[1]) if place else 1
-        problem = " ".join(_PLACE.sub("", text).split())
-        if "Prefix not found" in problem and place:
-            name = re.search(r"[\w.-]*:[\w.-]*$", _line(query.text, line)[: int(place[2]) - 1])
-            problem = f"a prefix is not declared: {name[0] if name else f'column {place[2]}'}"
-        elif len(problem) > 160:
-            problem = problem[:160] + " ..."
-        raise _error(query, line, f"it is not SPARQL: {problem}") from error
+        raise _error(query, *_explained(query, str(error.msg or error))) from error
     except ValueError as error:
         raise _error(query, 1, str(error)) from error
+
+
+def _explained(query: Query, said: str) -> tuple[int, str]:
+    """Line and problem of a syntax error; pyoxigraph's own words do not tell of prefixes."""
+    prefixes = prefixes_of(query)
+    text = _TEXT.sub(_blank, _PREFIX.sub(_blank, query.text))
+    for found in _IRI.finditer(text):
+        if (name := found["prefix"]) is not None and name not in prefixes:
+            line = text.count("\n", 0, found.start()) + 1
+            return line, f"the prefix {name}: is not declared ({found[0]})"
+    place = _PLACE.match(said)
+    problem = " ".join(_PLACE.sub("", said).split())
+    if len(problem) > 160:
+        problem = problem[:160] + " ..."
+    return int(place[1]) if place else 1, f"it is not SPARQL: {problem}"
+
+
+def _blank(found: re.Match[str]) -> str:
+    """As many lines as the match has, and nothing else."""
+    return " " + "\n" * found[0].count("\n")
 
 
 def ask(query: Query, store: Store) -> Answer:
@@ -203,7 +215,7 @@ def close_to(term: str, known: Iterable[str]) -> list[str]:
 
 def _bare(text: str) -> str:
     """The query without texts, IRIs and comments; line ends stay."""
-    return _TEXT.sub(lambda found: " " + "\n" * found[0].count("\n"), text)
+    return _TEXT.sub(_blank, text)
 
 
 def _without_comments(text: str) -> str:
