@@ -130,10 +130,11 @@ def _table_difference(
     lexical = expected.lexical or answer.lexical
 
     def lines(rows: Iterable[Row]) -> list[str]:
-        return [
+        texts = [
             ", ".join(f"{c}={show(t, prefixes)}" for c, t in zip(chosen, row, strict=True))
             for row in rows
         ]
+        return texts if ordered else sorted(texts)
 
     missing, unexpected = _bag_difference(wanted, given, lexical)
     parts = [_listed("missing", lines(missing)), _listed("unexpected", lines(unexpected))]

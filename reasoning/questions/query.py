@@ -145,7 +145,9 @@ def terms_of(query: Query) -> frozenset[str] | None:
         )
     except Exception:  # pyoxigraph has accepted it: a construct that rdflib does not know
         return None
-    return frozenset(term for term in _terms(parsed.algebra) if not term.startswith(v.BUILT_IN))
+    # rdflib leaves the backslashes of escaped prefixed names in.
+    found = (re.sub(r"\\(.)", r"\1", term) for term in _terms(parsed.algebra))
+    return frozenset(term for term in found if not term.startswith(v.BUILT_IN))
 
 
 def _terms(node: Any) -> Iterator[str]:
@@ -207,9 +209,9 @@ def close_to(term: str, known: Iterable[str]) -> list[str]:
     from difflib import get_close_matches
 
     names: dict[str, list[str]] = {}
-    for iri in sorted(known):
+    for iri in sorted(iri for iri in known if not iri.startswith(v.BUILT_IN)):
         names.setdefault(local_name(iri).casefold(), []).append(iri)
-    close = get_close_matches(local_name(term).casefold(), names, n=3, cutoff=0.75)
+    close = get_close_matches(local_name(term).casefold(), names, n=3, cutoff=0.6)
     return [iri for name in close for iri in names[name]][:3]
 
 

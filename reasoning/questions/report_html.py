@@ -36,7 +36,6 @@ h1 { font-size: 1.7rem; margin: 0 0 .3rem }
 h2 { font-size: 1.15rem; margin: 2.2rem 0 .6rem }
 h2 small, .soft { color: var(--soft); font-weight: 400; font-size: .85rem }
 .bar { display: flex; height: .5rem; border-radius: .25rem; overflow: hidden; margin: 1rem 0 }
-nav label { margin-right: 1rem; white-space: nowrap }
 details { background: var(--card); border: 1px solid var(--line); border-radius: .4rem;
   margin: .4rem 0 }
 summary { cursor: pointer; padding: .55rem .8rem; display: flex; gap: .7rem;

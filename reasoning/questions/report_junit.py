@@ -24,7 +24,7 @@ def render(report: Report) -> str:
     What failed is a failure, what is broken an error; what is known to fail or needs the reasoner
     is skipped.
     """
-    root = Element("testsuites", _counts(report.results, report.seconds), name=report.title)
+    root = Element("testsuites", _counts(report.results, report.seconds), name=_clean(report.title))
     for group, results in report.groups.items():
         seconds = sum(result.seconds for result in results)
         suite = SubElement(root, "testsuite", _counts(results, seconds), name=_clean(group))
@@ -36,7 +36,7 @@ def render(report: Report) -> str:
                 classname=_clean(group),
                 name=_clean(f"{question.id}: {question.text}"),
                 time=f"{result.seconds:.3f}",
-                file=str(question.manifest),
+                file=_clean(str(question.manifest)),
                 line=str(question.line),
             )
             first = _clean(result.message.partition("\n")[0])

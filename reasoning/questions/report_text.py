@@ -13,7 +13,8 @@ def render(report: Report) -> str:
         lines += ["", group]
         for result in results:
             question = result.question
-            lines.append(f"  {result.status:13} {question.id}: {question.text}")
+            text = " ".join(question.text.split())
+            lines.append(f"  {result.status:13} {question.id}: {text}")
             told = result.status != PASSED or question.known_failing
             if told and result.message:
                 lines += (f"                {line}" for line in result.message.split("\n"))

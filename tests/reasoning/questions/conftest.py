@@ -29,6 +29,12 @@ Load = Callable[..., list[Question]]
 
 
 @pytest.fixture
+def prefixes() -> str:
+    """The prefixes that ``load`` puts before a manifest."""
+    return PREFIXES
+
+
+@pytest.fixture
 def farm() -> Path:
     """The folder of the small ontology about a farm."""
     return QUESTIONS / "farm"

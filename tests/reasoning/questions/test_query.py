@@ -113,7 +113,7 @@ def test_the_quick_look_never_misses_a_term() -> None:
     asked = [q.query for q in load_manifest(default_manifest()) if q.query]
     assert len(asked) > 80
     odd = [
-        "SELECT*{?s :p ?o;:q:r}",
+        "SELECT*{?s :p ?o;:q :r}",
         "ASK { ?s :p ?o . _:b :q 'a:b'@en,:r }",
         "ASK { ?s :a%20b :c\\,d ; :e.f :g. }",
         "ASK { ?s :p ?o FILTER(?o<3 && 4>?o || ?o = :a) }",
