@@ -1,8 +1,9 @@
 """Why an ontology clashes: a small set of axioms that contradict each other, in words.
 
-Black-box contraction: take the module of axioms that can have a say, then leave out from its front
-as many as the clash survives; the next one is needed; go on behind it. What is left is minimal:
-without any one of its axioms there is no clash (or the time was over, then it is merely small).
+Black-box search: take the module of axioms that can have a say, of it the smallest neighbourhood
+of the question that clashes, then leave out from its front as many as the clash survives; the next
+one is needed; go on behind it. What is left is minimal: without any one of its axioms there is no
+clash (or the time was over, then it is merely small).
 Questions are asked many at a time, since starting Java costs more than answering.
 """
 
@@ -11,14 +12,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from time import monotonic
 
-from rdflib import RDF, RDFS, URIRef
+from rdflib import OWL, RDF, RDFS, BNode, URIRef
+from rdflib.term import Node
 
 from symboslam.errors import InconsistentOntologyError
 from symboslam.reasoning._base import Hierarchy, Reasoner
 from symboslam.reasoning.axioms import Axiom, Triple
 from symboslam.reasoning.locality import module
-from symboslam.reasoning.vocabulary import local_name
+from symboslam.reasoning.vocabulary import OWL_NAMESPACE, local_name
 
+_BOTH_WAYS = (OWL.disjointWith, OWL.equivalentClass, OWL.inverseOf, OWL.equivalentProperty)
 _SECONDS = 40.0
 _WIDTH = 64  # questions at a time
 _NAMED = 8  # classes that the message names
@@ -79,12 +82,15 @@ def explain(
         ontologies = [[*declared, *(t for a in c for t in a.triples)] for c in candidates]
         return reasoner.clashes(ontologies, unsatisfiable)
 
+    # The smallest neighbourhood of the question that clashes; most of a module is beside the point.
+    near = _neighbourhoods(module(axioms, [unsatisfiable] if unsatisfiable else []), unsatisfiable)
+    answers = ask(near)
+    # One must clash, unless the module lacks something.
+    left = near[answers.index(True)] if True in answers else axioms
     # What is left out first is least missed: plain statements about classes explain best.
-    left = sorted(module(axioms, [unsatisfiable] if unsatisfiable else []), key=_is_plain)
+    left = sorted(left, key=_is_plain)
     fewer = [[a for a in left if a is not without] for without in left[: _WIDTH + 1]]
-    answers = ask([*(fewer if len(fewer) <= _WIDTH else ()), left])
-    if True not in answers:  # cannot be, unless the module lacks something
-        left, answers = sorted(axioms, key=_is_plain), []
+    answers = ask(fewer) if len(fewer) <= _WIDTH else []
     # What no explanation can do without, as far as the answers go.
     needed = [a for a, clashes in zip(left, answers, strict=False) if not clashes]
     rest = [a for a in left if a not in needed]
@@ -105,6 +111,37 @@ def explain(
         needed += rest[low : low + 1]  # nothing if what is needed clashes by itself
         rest = rest[low + 1 :]
     return needed
+
+
+def _neighbourhoods(axioms: Sequence[Axiom], start: str | None) -> list[list[Axiom]]:
+    """Growing parts of some axioms, the last one being all: first what is said about ``start``.
+
+    Each part adds what is said about the names in the one before. Without a start, the first part
+    is what is said about individuals.
+    """
+    known: set[Node] = {URIRef(start)} if start else {a.subject for a in axioms if _is_fact(a)}
+    parts: list[list[Axiom]] = []
+    while True:
+        part = [a for a in axioms if _is_about(a, known)]
+        if parts and len(part) == len(parts[-1]):
+            break
+        parts.append(part)
+        known.update(name for axiom in part for name in axiom.signature)
+    return parts if len(parts[-1]) == len(axioms) else [*parts, list(axioms)]
+
+
+def _is_about(axiom: Axiom, known: set[Node]) -> bool:
+    if axiom.subject in known or isinstance(axiom.subject, BNode):
+        return True
+    return axiom.predicate in _BOTH_WAYS and axiom.object in known
+
+
+def _is_fact(axiom: Axiom) -> bool:
+    """Whether it says something about an individual."""
+    about_all = (RDFS.subClassOf, RDFS.subPropertyOf, RDFS.domain, RDFS.range)
+    if axiom.predicate == RDF.type:
+        return not str(axiom.object).startswith(OWL_NAMESPACE)
+    return axiom.predicate not in about_all and not str(axiom.predicate).startswith(OWL_NAMESPACE)
 
 
 def _is_plain(axiom: Axiom) -> bool:

@@ -161,17 +161,20 @@ class Hermit(Reasoner):
 
     def _run(self, ontologies: Iterable[Iterable[Triple]], *actions: str) -> tuple[int, str]:
         """Exit code and output of one run over several ontologies."""
-        from rdflib import Graph
+        from rdflib.plugins.serializers.nt import _nt_row
 
         java, class_path = find_java(), _find_hermit()
+        rows: dict[Triple, str] = {}  # many ontologies are parts of one
         with TemporaryDirectory(prefix="symboslam-") as folder:
             files = []
             for i, triples in enumerate(ontologies):
-                graph = Graph()
-                for triple in triples:
-                    graph.add(triple)
                 files.append(Path(folder) / f"{i}.nt")
-                graph.serialize(files[-1], format="nt", encoding="utf-8")
+                with files[-1].open("w", encoding="utf-8", newline="\n") as file:
+                    for triple in triples:
+                        row = rows.get(triple)
+                        if row is None:
+                            row = rows[triple] = _nt_row(triple)
+                        file.write(row)
             command = [
                 str(java), *_JAVA_OPTIONS, "-cp", class_path, _MAIN,
                 "--ignoreUnsupportedDatatypes", *actions, *(file.as_uri() for file in files),

@@ -17,13 +17,12 @@ ROBOT = ROOT / "scripts" / "robot"
 PIZZA = ROOT.parent / "shared" / "data" / "oops-cases" / "input" / "pizza.owl"
 PIZZA_IRI = "https://raw.githubusercontent.com/owlcs/pizza-ontology/refs/heads/master/pizza.owl#"
 SL_IRI = "https://w3id.org/symboslam#"
-ROBOTS_LIMIT, OUR_LIMIT = 30, 3
+ROBOTS_LIMIT, OUR_LIMIT = 30, 2
 
 PIZZAS = [
     "IceCream is unsatisfiable",
     "CheeseyVegetableTopping is unsatisfiable",
     "American SubClassOf CheeseyPizza",
-    "American SubClassOf MeatyPizza",
     "CajunSpiceTopping SubClassOf SpicyTopping",
     "CheeseTopping SubClassOf VegetarianTopping",
     "Country SubClassOf DomainConcept",
@@ -32,7 +31,7 @@ PIZZAS = [
     "RealItalianPizza SubClassOf ThinAndCrispyPizza",
     "Napoletana SubClassOf RealItalianPizza",
     "SpicyTopping SubClassOf PizzaTopping",
-    "UnclosedPizza SubClassOf CheeseyPizza",
+    "HotGreenPepperTopping SubClassOf SpicyTopping",
 ]
 OURS = [
     "House SubClassOf Feature",
@@ -116,6 +115,7 @@ def merged(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.robot
+@pytest.mark.slow
 @pytest.mark.skipif(not PIZZA.is_file(), reason="needs ../shared/data/oops-cases")
 @pytest.mark.parametrize("question", PIZZAS)
 def test_pizza(hermit: None, question: str, tmp_path: Path) -> None:
@@ -123,6 +123,7 @@ def test_pizza(hermit: None, question: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.robot
+@pytest.mark.slow
 @pytest.mark.parametrize("question", OURS)
 def test_ours(hermit: None, question: str, tmp_path: Path, merged: Path) -> None:
     agree(question, merged, robots_sets(question, merged, SL_IRI, tmp_path))
