@@ -106,9 +106,7 @@ def check_ontology(paths: Sequence[str | Path] | str | Path | None = None) -> Re
         source, read = ", ".join(map(str, given)), files.read_files([Path(p) for p in given])
     stated = Statements(read.graph)
     counts = Report(source, classes=len(stated.classes), indications=len(stated.indications))
-    found = [
-        Finding(note.kind, note.subject, note.message) for note in read.notes
-    ]
+    found = [Finding(note.kind, note.subject, note.message) for note in read.notes]
     try:
         classes = reason(read)
     except InconsistentOntologyError as error:
