@@ -182,7 +182,7 @@ def test_json(hermit: None, bakery: Justifications, mine: Path) -> None:
 def test_turtle_can_be_reasoned_over(hermit: None, bakery: Justifications) -> None:
     sl = Namespace(SL)
     graph = Graph().parse(data=as_turtle(bakery), format="turtle", publicID="urn:why")
-    ways = sorted(graph.subjects(RDF.type, sl.Justification))
+    ways = sorted(graph.subjects(RDF.type, sl.Justification), key=str)
     assert [len(list(graph.objects(way, sl.usesAxiom))) for way in ways] == [1, 3]
     assert {str(line) for line in graph.objects(None, sl.lineNumber)} >= {"10", "7"}
     stated = {axiom.text for axiom in split(graph)[1]}
