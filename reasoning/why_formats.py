@@ -10,9 +10,6 @@ from symboslam.reasoning import vocabulary as v
 if TYPE_CHECKING:
     from symboslam.reasoning.why import Justifications, StatedAxiom
 
-_ORDINALS = ("First", "Second", "Third")
-
-
 def as_text(found: Justifications) -> str:
     """For people: each way with its axioms, where they stand and why they hold."""
     said = found.entailment.text
@@ -30,7 +27,7 @@ def as_text(found: Justifications) -> str:
         for axiom in axioms:
             lines.append(f"  {axiom.text}  [{axiom.place or 'not from a file'}]")
             if axiom.reason or axiom.strength is not None:
-                strength = "" if axiom.strength is None else f"strength {axiom.strength:g}"
+                strength = "" if axiom.strength is None else f"strength {axiom.strength:g}:"
                 source = f"({axiom.source})" if axiom.source else ""
                 lines.append("    " + " ".join(filter(None, (strength, axiom.reason, source))))
     return "\n".join(lines)

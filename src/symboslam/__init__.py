@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from symboslam.engine.writers import write_map
     from symboslam.errors import SymboSlamError
     from symboslam.reasoning.knowledge import Knowledge
+    from symboslam.reasoning.why import why
 
 __version__ = "0.1.0"
 
@@ -33,6 +34,7 @@ _HOME = {
     "SymboSlamError": "symboslam.errors",
     "classify": "symboslam.engine.classify",
     "read_landmarks": "symboslam.engine.readers",
+    "why": "symboslam.reasoning.why",
     "write_map": "symboslam.engine.writers",
 }
 
@@ -45,6 +47,7 @@ __all__ = [
     "SymboSlamError",
     "classify",
     "read_landmarks",
+    "why",
     "write_map",
 ]
 

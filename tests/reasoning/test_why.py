@@ -158,7 +158,7 @@ def test_text(hermit: None, bakery: Justifications, mine: Path) -> None:
     lines = as_text(bakery).splitlines()
     assert lines[0] == "Bakery indicates Town, because of these axioms (2 ways):"
     assert f"  every Bakery indicates some Town  [{mine}: line 10]" in lines
-    assert "    strength 0.75 Towns eat bread." in lines
+    assert "    strength 0.75: Towns eat bread." in lines
 
 
 def test_json(hermit: None, bakery: Justifications, mine: Path) -> None:
