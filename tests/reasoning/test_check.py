@@ -161,3 +161,20 @@ def test_table_that_claims_too_much(
     assert found(check_ontology(resource("town.ttl")), "disagreement") == {
         "Tower: the table says that Tower indicates Home, but HermiT does not infer it"
     }
+
+
+def test_odd_files(hermit: None, tmp_path: Path) -> None:
+    """A circle of imports and a byte-order mark are findings with file and line."""
+    text = FINDINGS.read_text().replace("https://example.org/nowhere", "urn:b")
+    (tmp_path / "a.ttl").write_bytes(b"\xef\xbb\xbf" + text.encode())
+    (tmp_path / "b.ttl").write_text(
+        "@prefix owl: <http://www.w3.org/2002/07/owl#> .\n"
+        "<urn:b> a owl:Ontology ; owl:imports <https://example.org/f> ."
+    )
+    report = check_ontology(tmp_path / "a.ttl")
+    (mark,) = found(report, "byte-order-mark")
+    assert "a.ttl: line 1: begins with a byte-order mark" in mark
+    (circle,) = found(report, "cyclic-import")
+    assert "a.ttl: line 8 imports b.ttl" in circle
+    assert "b.ttl: line 2 imports a.ttl" in circle
+    assert not found(report, "missing-import")
