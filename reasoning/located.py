@@ -7,8 +7,9 @@ look at their state at the moment when they add a triple.
 from __future__ import annotations
 
 import io
-from bisect import bisect_left
+from bisect import bisect_left, bisect_right
 from typing import Any, Self
+from xml.parsers import expat
 
 from rdflib import Graph
 from rdflib.plugins.parsers.notation3 import RDFSink, SinkParser
@@ -111,3 +112,43 @@ class _RdfXmlHandler(RDFXMLHandler):
         self.graph.line = self.tags[-1]
         super().endElementNS(name, qname)
         self.tags.pop()
+
+
+class OwlXmlLines:
+    """A file for a parser of OWL/XML, handed over line by line, that knows where an axiom begins.
+
+    owlready2's parser states an axiom at its end tag and tells nobody where it is. What it has read
+    by then is known here, and so is the line of each child of the root.
+    """
+
+    def __init__(self, data: bytes) -> None:
+        self._lines = iter(data.splitlines(keepends=True))
+        self._read = 0
+        self._starts: list[int] = []
+        depth = 0
+        parser = expat.ParserCreate()
+
+        def start(*_: object) -> None:
+            nonlocal depth
+            depth += 1
+            if depth == 2:
+                self._starts.append(parser.CurrentLineNumber)
+
+        def end(*_: object) -> None:
+            nonlocal depth
+            depth -= 1
+
+        parser.StartElementHandler, parser.EndElementHandler = start, end
+        parser.Parse(data, True)
+
+    def read(self, _size: int = -1) -> bytes:
+        """The next line; nothing at the end."""
+        line = next(self._lines, b"")
+        self._read += bool(line)
+        return line
+
+    @property
+    def line(self) -> int:
+        """The line on which the axiom begins that the parser is at."""
+        at = bisect_right(self._starts, self._read)
+        return self._starts[at - 1] if at else self._read

@@ -230,22 +230,24 @@ def _refuse_endless(name: str, graph: Graph) -> None:
         raise _error(name, None, "its expressions are nested too deeply")
 
 
-def _parse_owl_xml(name: str, data: bytes, graph: Graph) -> None:
+def _parse_owl_xml(name: str, data: bytes, graph: LocatedGraph) -> None:
     """Read OWL/XML with owlready2's parser, which neither loads imports nor needs a world."""
-    import io
-
     from owlready2.base import OwlReadyOntologyParsingError
     from owlready2.owlxml_2_ntriples import parse as parse_owl_xml
     from rdflib import BNode, Literal, URIRef
     from rdflib.term import Identifier
 
+    from symboslam.reasoning.located import OwlXmlLines
+
     number = count()
     fresh: dict[str, BNode] = {}
+    lines = OwlXmlLines(data)
 
     def term(text: str) -> Identifier:
         return fresh.setdefault(text, BNode()) if text.startswith("_:") else URIRef(text)
 
     def on_object(subject: str, predicate: str, value: str) -> None:
+        graph.line = lines.line
         graph.add((term(subject), URIRef(predicate), term(value)))
 
     def on_data(subject: str, predicate: str, value: Any, datatype: str) -> None:
@@ -253,10 +255,11 @@ def _parse_owl_xml(name: str, data: bytes, graph: Graph) -> None:
             literal = Literal(value, lang=datatype[1:])
         else:
             literal = Literal(value, datatype=URIRef(datatype) if datatype else None)
+        graph.line = lines.line
         graph.add((term(subject), URIRef(predicate), literal))
 
     try:
-        parse_owl_xml(io.BytesIO(data), on_object, on_data, lambda: f"_:{next(number)}")
+        parse_owl_xml(lines, on_object, on_data, lambda: f"_:{next(number)}")
     except OwlReadyOntologyParsingError as error:
         text = str(error)
         line = text.partition("line ")[2].partition(",")[0]

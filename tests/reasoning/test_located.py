@@ -42,6 +42,24 @@ XML = """<?xml version="1.0"?>
   </owl:Class>
 </rdf:RDF>
 """
+OWL_XML = """<?xml version="1.0"?>
+<Ontology xmlns="http://www.w3.org/2002/07/owl#"
+     xml:base="https://example.org/x"
+     ontologyIRI="https://example.org/x">
+    <Declaration><Class IRI="#House"/></Declaration>
+    <SubClassOf>
+        <Class IRI="#House"/>
+        <Class IRI="#Building"/>
+    </SubClassOf>
+    <SubClassOf>
+        <Class IRI="#House"/>
+        <ObjectSomeValuesFrom>
+            <ObjectProperty IRI="#indicates"/>
+            <Class IRI="#Residential"/>
+        </ObjectSomeValuesFrom>
+    </SubClassOf>
+</Ontology>
+"""
 
 
 def ex(name: str) -> URIRef:
@@ -86,3 +104,13 @@ def test_rdf_xml() -> None:
 def test_the_graph_is_what_rdflib_reads() -> None:
     for name, text, form in (("a.ttl", TURTLE, "turtle"), ("a.owl", XML, "xml")):
         assert isomorphic(parse(name, text.encode()), Graph().parse(data=text, format=form))
+
+
+def test_owl_xml() -> None:
+    graph = parse("a.owx", OWL_XML.encode())
+    lines = graph.lines
+    (restriction,) = graph.subjects(OWL.someValuesFrom, ex("Residential"))
+    assert lines[ex("House"), RDF.type, OWL.Class] == 5
+    assert lines[ex("House"), RDFS.subClassOf, ex("Building")] == 6
+    assert lines[ex("House"), RDFS.subClassOf, restriction] == 10
+    assert set(lines) == set(graph)
