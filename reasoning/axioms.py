@@ -47,6 +47,12 @@ _CARDINALITIES = {
     OWL.cardinality: "exactly",
     OWL.qualifiedCardinality: "exactly",
 }
+_FACETS = {
+    "minInclusive": ">=",
+    "minExclusive": ">",
+    "maxInclusive": "<=",
+    "maxExclusive": "<",
+}
 _BLOCKS = (
     OWL.AllDisjointClasses, OWL.AllDisjointProperties, OWL.AllDifferent,
     OWL.NegativePropertyAssertion,
@@ -173,6 +179,8 @@ class Words:
             return "one of " + ", ".join(self.expression(m) for m in self.members(single))
         if (inverse := value(node, OWL.inverseOf)) is not None:
             return f"inverse of {self.expression(inverse)}"
+        if (datatype := value(node, OWL.onDatatype)) is not None:
+            return f"{self.expression(datatype)} {self._facets(node)}"
         on = value(node, OWL.onProperty)
         if on is None:
             return "something"
@@ -188,9 +196,26 @@ class Words:
                 return f"{where} {word} {number} {self._inner(filler)}"
         return f"{where} itself"
 
+    def _facets(self, node: Node) -> str:
+        """What a datatype restriction demands, such as ``>= 18``."""
+        found = []
+        for item in self.members(self.graph.value(node, OWL.withRestrictions)):
+            for _, facet, limit in self.graph.triples((item, None, None)):
+                word = _FACETS.get(local_name(str(facet)), local_name(str(facet)))
+                found.append(f"{word} {limit}")
+        return " and ".join(sorted(found))
+
     def _inner(self, node: Node) -> str:
         text = self.expression(node)
         return f"({text})" if " " in text and isinstance(node, BNode) else text
+
+    def _denial(self, node: Node) -> str:
+        """A negative property assertion."""
+        value = self.graph.value
+        target = value(node, OWL.targetIndividual) or value(node, OWL.targetValue)
+        parts = (value(node, OWL.sourceIndividual), value(node, OWL.assertionProperty), target)
+        one, along, other = ("something" if n is None else self.expression(n) for n in parts)
+        return f"it is not so that {one} {along} {other}"
 
     def axiom(self, axiom: Axiom) -> str:
         """An axiom as a short sentence."""
@@ -202,11 +227,13 @@ class Words:
             listed = self.graph.value(s, OWL.members) or self.graph.value(s, OWL.distinctMembers)
             names = ", ".join(say(member) for member in self.members(listed))
             if o == OWL.NegativePropertyAssertion:
-                return "a negative property assertion"
+                return self._denial(s)
             return f"{names} are {'all different' if o == OWL.AllDifferent else 'disjoint'}"
         if p == OWL.propertyChainAxiom:
             chain = " of ".join(say(member) for member in self.members(o))
             return f"{chain} implies {say(s)}"
+        if p == OWL.hasKey:
+            return f"{say(s)} is told apart by {', '.join(map(say, self.members(o)))}"
         if p == OWL.disjointUnionOf:
             return f"{say(s)} is the disjoint union of {', '.join(map(say, self.members(o)))}"
         if p == RDFS.subClassOf and isinstance(o, BNode):

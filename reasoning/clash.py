@@ -65,6 +65,7 @@ def explain(
     axioms: Sequence[Axiom],
     unsatisfiable: str | None,
     seconds: float = _SECONDS,
+    fixed: Sequence[Axiom] = (),
 ) -> list[Axiom]:
     """A small set of axioms that clash.
 
@@ -74,16 +75,19 @@ def explain(
         axioms: axioms that clash somewhere.
         unsatisfiable: the class that can have no members; None for an inconsistent ontology.
         seconds: time limit; at least the module is returned.
+        fixed: axioms that are always there, and not in the result.
     """
     end = monotonic() + seconds
     declared = list(declared)
 
     def ask(candidates: Sequence[Sequence[Axiom]]) -> list[bool]:
-        ontologies = [[*declared, *(t for a in c for t in a.triples)] for c in candidates]
+        always = [*declared, *(t for a in fixed for t in a.triples)]
+        ontologies = [[*always, *(t for a in c for t in a.triples)] for c in candidates]
         return reasoner.clashes(ontologies, unsatisfiable)
 
     # The smallest neighbourhood of the question that clashes; most of a module is beside the point.
-    near = _neighbourhoods(module(axioms, [unsatisfiable] if unsatisfiable else []), unsatisfiable)
+    whole = module([*axioms, *fixed], [unsatisfiable] if unsatisfiable else [])
+    near = [[a for a in part if a not in fixed] for part in _neighbourhoods(whole, unsatisfiable)]
     answers = ask(near)
     # One must clash, unless the module lacks something.
     left = near[answers.index(True)] if True in answers else axioms

@@ -30,6 +30,7 @@ def minimal_sets(
     unsatisfiable: str | None,
     limit: int,
     seconds: float,
+    fixed: Sequence[Axiom] = (),
 ) -> tuple[list[list[Axiom]], bool]:
     """Minimal sets of axioms that clash, and whether these are all of them.
 
@@ -39,16 +40,20 @@ def minimal_sets(
         axioms: its axioms; empty sets are returned if they do not clash.
         unsatisfiable: the class that can have no members; None for an inconsistent ontology.
         limit: how many sets to look for.
-        seconds: time limit; what is found later than that may be not quite minimal, so that the
-            search ends with it.
+        seconds: time limit; a set that is still too large by then is left out.
+        fixed: axioms that are always there; sets are minimal beside them and do not list them.
     """
     end = monotonic() + seconds
-    axioms = module(_each_once(axioms), [unsatisfiable] if unsatisfiable else [])
-    names = {name for axiom in axioms for name in axiom.signature}
+    whole = module([*_each_once(axioms), *fixed], [unsatisfiable] if unsatisfiable else [])
+    axioms = [axiom for axiom in whole if axiom not in fixed]
+    names = {name for axiom in (*whole, *fixed) for name in axiom.signature}
     declared = [triple for triple in declared if triple[0] in names]
 
     def without(path: Iterable[Axiom]) -> list[Axiom]:
         return [axiom for axiom in axioms if axiom not in path]
+
+    def with_fixed(path: Iterable[Axiom]) -> list[Axiom]:
+        return [*fixed, *without(path)]
 
     found: list[list[Axiom]] = []
     harmless: set[frozenset[Axiom]] = set()  # without these the clash is gone
@@ -58,7 +63,7 @@ def minimal_sets(
             return found, False
         level = {path for path in level if not any(gone <= path for gone in harmless)}
         order = sorted(level, key=lambda path: sorted(axiom.text for axiom in path))
-        answers = _all_answers(reasoner, declared, [without(p) for p in order], unsatisfiable)
+        answers = _all_answers(reasoner, declared, [with_fixed(p) for p in order], unsatisfiable)
         harmless |= {path for path, clashes in zip(order, answers, strict=True) if not clashes}
         deeper: set[frozenset[Axiom]] = set()
         for path, clashes in zip(order, answers, strict=True):
@@ -68,7 +73,10 @@ def minimal_sets(
             if known is None:
                 if len(found) >= limit or monotonic() > end:
                     return found, False
-                known = explain(reasoner, declared, without(path), unsatisfiable, end - monotonic())
+                left = end - monotonic()
+                known = explain(reasoner, declared, without(path), unsatisfiable, left, fixed)
+                if monotonic() > end:
+                    return found, False  # it may have axioms too many
                 found.append(known)
             deeper |= {path | {axiom} for axiom in known}
         level = deeper

@@ -41,40 +41,69 @@ class LocatedGraph(Graph):
 
 
 def parse_turtle(graph: LocatedGraph, data: bytes, base: str) -> None:
-    """Read Turtle; the line of a triple is that of its predicate."""
+    """Read Turtle; the line of a triple is that on which its object begins."""
     parser = _TurtleParser(graph, baseURI=base, turtle=True)
     parser.loadStream(io.BytesIO(data))
     for prefix, namespace in parser._bindings.items():
         graph.bind(prefix, namespace)
 
 
+class _Statement:
+    """The predicate that the parser is inside of, and the lines of it and of its objects."""
+
+    def __init__(self, line: int) -> None:
+        self.line = line
+        self.objects: list[int] = []
+        self.list: Any = None  # where the parser collects the objects
+        self.is_read = False
+
+
 class _TurtleParser(SinkParser):
-    """rdflib's Turtle parser, with the lines of the predicates that it is inside of.
+    """rdflib's Turtle parser, with the lines of what it is inside of.
 
     ``SinkParser.lines`` is no help: it counts a line again whenever the parser steps back.
     """
 
     def __init__(self, graph: LocatedGraph, **options: Any) -> None:
         self.graph = graph
-        self.verbs: list[int] = [1]
+        self.inside: list[_Statement] = [_Statement(1)]
         self._ends: list[int] | None = None
         super().__init__(RDFSink(graph), **options)
 
+    def _line(self, argstr: str, i: int) -> int:
+        if self._ends is None:  # the text is the whole document each time
+            self._ends = [at for at, c in enumerate(argstr) if c == "\n"]
+        return bisect_left(self._ends, i) + 1
+
     def property_list(self, argstr: str, i: int, subj: Node) -> int:
-        self.verbs.append(self.verbs[-1])
+        self.inside.append(_Statement(self.inside[-1].line))
         end: int = super().property_list(argstr, i, subj)
-        self.verbs.pop()
+        self.inside.pop()
         return end
 
     def verb(self, argstr: str, i: int, res: Any) -> int:
-        if self._ends is None:  # the text is the whole document each time
-            self._ends = [at for at, c in enumerate(argstr) if c == "\n"]
-        self.verbs[-1] = bisect_left(self._ends, i) + 1
+        self.inside[-1] = _Statement(self._line(argstr, i))
         end: int = super().verb(argstr, i, res)
         return end
 
+    def objectList(self, argstr: str, i: int, res: Any) -> int:
+        here = self.inside[-1]
+        here.list = res
+        end: int = super().objectList(argstr, i, res)
+        here.is_read = True
+        return end
+
+    def object(self, argstr: str, i: int, res: Any) -> int:
+        here = self.inside[-1]
+        if res is here.list:
+            here.line = self._line(argstr, max(self.skipSpace(argstr, i), i))
+            here.objects.append(here.line)
+        end: int = super().object(argstr, i, res)
+        return end
+
     def makeStatement(self, quadruple: Any) -> None:
-        self.graph.line = self.verbs[-1]
+        here = self.inside[-1]
+        self.graph.line = here.objects.pop(0) if here.is_read and here.objects else here.line
         super().makeStatement(quadruple)
 
 
@@ -125,14 +154,17 @@ class OwlXmlLines:
         self._lines = iter(data.splitlines(keepends=True))
         self._read = 0
         self._starts: list[int] = []
+        self._tags: list[str] = []
+        self._stated: set[int] = set()
         depth = 0
         parser = expat.ParserCreate()
 
-        def start(*_: object) -> None:
+        def start(tag: str, _: object) -> None:
             nonlocal depth
             depth += 1
             if depth == 2:
                 self._starts.append(parser.CurrentLineNumber)
+                self._tags.append(tag.rpartition(":")[2])
 
         def end(*_: object) -> None:
             nonlocal depth
@@ -147,8 +179,15 @@ class OwlXmlLines:
         self._read += bool(line)
         return line
 
-    @property
     def line(self) -> int:
-        """The line on which the axiom begins that the parser is at."""
+        """The line on which the axiom begins that the parser now states."""
         at = bisect_right(self._starts, self._read)
-        return self._starts[at - 1] if at else self._read
+        line = self._starts[at - 1] if at else self._read
+        self._stated.add(line)
+        return line
+
+    def left_out(self) -> tuple[int, str] | None:
+        """Line and element of the first axiom of which nothing was stated, after the parsing."""
+        both = zip(self._starts, self._tags, strict=True)
+        dropped = (b for b in both if b[0] not in self._stated and b[1] != "Prefix")
+        return next(dropped, None)

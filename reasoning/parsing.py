@@ -81,7 +81,13 @@ def parse(name: str, data: bytes) -> LocatedGraph:
         line = error.object[: error.start].count(b"\n") + 1
         raise _error(name, line, "it is not UTF-8 text") from error
     except Exception as error:  # parsers raise errors of many unrelated types
-        raise _error(name, *_place(error)) from error
+        where, problem = _place(error)
+        if isinstance(error, IndexError):  # rdflib's Turtle, when it runs out of text
+            where = data.rstrip().count(b"\n") + 1
+            problem = "the file ends in the middle of something"
+        elif where is None and language == "turtle":
+            where = graph.line  # of the last triple before
+        raise _error(name, where, problem.partition(" at ^ in:")[0]) from error
     _refuse_bad_iris(name, graph)
     _refuse_endless(name, graph)
     return graph
@@ -247,7 +253,7 @@ def _parse_owl_xml(name: str, data: bytes, graph: LocatedGraph) -> None:
         return fresh.setdefault(text, BNode()) if text.startswith("_:") else URIRef(text)
 
     def on_object(subject: str, predicate: str, value: str) -> None:
-        graph.line = lines.line
+        graph.line = lines.line()
         graph.add((term(subject), URIRef(predicate), term(value)))
 
     def on_data(subject: str, predicate: str, value: Any, datatype: str) -> None:
@@ -255,7 +261,7 @@ def _parse_owl_xml(name: str, data: bytes, graph: LocatedGraph) -> None:
             literal = Literal(value, lang=datatype[1:])
         else:
             literal = Literal(value, datatype=URIRef(datatype) if datatype else None)
-        graph.line = lines.line
+        graph.line = lines.line()
         graph.add((term(subject), URIRef(predicate), literal))
 
     try:
@@ -265,3 +271,6 @@ def _parse_owl_xml(name: str, data: bytes, graph: LocatedGraph) -> None:
         line = text.partition("line ")[2].partition(",")[0]
         problem = f"it is not OWL/XML: {error.__cause__ or text}"
         raise _error(name, int(line) if line.isdigit() else None, problem) from error
+    if dropped := lines.left_out():
+        problem = f"<{dropped[1]}> is not understood here; save it as Turtle or RDF/XML instead"
+        raise _error(name, dropped[0], problem)

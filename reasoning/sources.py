@@ -288,8 +288,13 @@ def _refusal(notes: Sequence[Note]) -> OntologySyntaxError | ImportsError:
     text = "\n".join(note.message for note in notes)
     if all(note.kind == "byte-order-mark" for note in notes):
         return OntologySyntaxError(text)
-    remedy = "put the file there or list it in catalog-v001.xml, mend the import, or read on in "
-    return ImportsError(f"{text}\n{remedy}spite of it with --lenient-imports")
+    kinds = {note.kind for note in notes}
+    remedies = []
+    if "missing-import" in kinds:
+        remedies.append("put the file there, list it in catalog-v001.xml or mend the import")
+    if "cyclic-import" in kinds:
+        remedies.append("leave out one of the imports")
+    return ImportsError(f"{text}\n{'; '.join(remedies)}; or read on with --lenient-imports")
 
 
 def _relative(path: Path, given: list[Path]) -> str:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from symboslam.errors import InputError
+from symboslam.errors import InconsistentOntologyError, InputError, ReasonerError
 from symboslam.reasoning import sources
 from symboslam.reasoning import vocabulary as v
 from symboslam.reasoning.matching import unknown_name
@@ -58,8 +58,13 @@ class Entailment:
         name = v.local_name(self.subject)
         if self.object is None:
             return f"{name} is unsatisfiable"
-        verb = "indicates" if self.kind == "indicates" else "is a"
-        return f"{name} {verb} {v.local_name(self.object)}"
+        other = v.local_name(self.object)
+        return f"{name} {'indicates' if self.kind == 'indicates' else 'is'} {self._named(other)}"
+
+    def _named(self, other: str) -> str:
+        from symboslam.reasoning.axioms import article
+
+        return other if self.kind == "indicates" else article(other)
 
 
 @dataclass(frozen=True)
@@ -137,7 +142,8 @@ def why(
         InputError: the question is not one of these, or a file cannot be read.
         UnknownNameError: the ontology has no such class.
         OntologyError: it does not parse, or is outside OWL 2 DL.
-        ReasonerError: the reasoner could not be run.
+        InconsistentOntologyError: everything follows, for the ontology contradicts itself.
+        ReasonerError: the reasoner could not be run, or took longer than ``seconds``.
     """
     if limit < 1:
         raise InputError(f"{limit} justifications? Ask for at least 1")
@@ -159,17 +165,31 @@ def justify(
     from symboslam.reasoning.axioms import split
     from symboslam.reasoning.hermit import Hermit
     from symboslam.reasoning.hitting_set import minimal_sets
+    from symboslam.reasoning.locality import module
 
-    reasoner = reasoner or Hermit()
+    reasoner = reasoner or Hermit(timeout=seconds)
     declared, axioms = split(read.graph)
     probe_declared, probe = split(_probe(entailment))
     subject = _PROBE if probe else entailment.subject
     found, complete = minimal_sets(
-        reasoner, [*declared, *probe_declared], [*axioms, *probe], subject, limit, seconds
+        reasoner, [*declared, *probe_declared], axioms, subject, limit, seconds, probe
     )
-    kept = [[axiom for axiom in one if axiom not in probe] for one in found]
+    if (
+        probe
+        and found
+        and True
+        in reasoner.clashes([[*declared, *(t for a in module(axioms, []) for t in a.triples)]])
+    ):
+        raise InconsistentOntologyError(
+            "the ontology is inconsistent, so that everything follows from it; "
+            "why that is, says: symboslam why inconsistent"
+        )
+    if not found and not complete:
+        raise ReasonerError(
+            f"no minimal set of axioms was found within {seconds:g} s; --seconds allows more"
+        )
     described = [
-        tuple(_described(axiom, read) for axiom in sorted(one, key=_reading_order)) for one in kept
+        tuple(_described(axiom, read) for axiom in sorted(one, key=_reading_order)) for one in found
     ]
     return Justifications(entailment, tuple(sorted(described, key=len)), complete)
 

@@ -10,11 +10,14 @@ from symboslam.reasoning import vocabulary as v
 if TYPE_CHECKING:
     from symboslam.reasoning.why import Justifications, StatedAxiom
 
+
 def as_text(found: Justifications) -> str:
     """For people: each way with its axioms, where they stand and why they hold."""
     said = found.entailment.text
     if not found.entailed:
         return f"{said[:1].upper()}{said[1:]}: that does not follow."
+    if not all(found.sets):
+        return f"{said[:1].upper()}{said[1:]}: that holds in any ontology."
     only = "the only way" if found.complete else "there may be other ways"
     count = len(found.sets)
     ways = f"{count} ways" if count > 1 else only if found.complete else f"1 way; {only}"

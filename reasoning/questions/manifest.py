@@ -14,7 +14,7 @@ from symboslam.reasoning.questions.expected import parse_literal, read_expected,
 from symboslam.reasoning.questions.model import Expected, Query, Question, Term
 from symboslam.reasoning.questions.places import Lines, file_of, find_file, find_ontology
 from symboslam.reasoning.questions.query import check_syntax
-from symboslam.reasoning.vocabulary import local_name
+from symboslam.reasoning.vocabulary import SL, local_name
 
 YAML_ENDINGS = (".yml", ".yaml")
 _KINDS = {
@@ -126,7 +126,20 @@ class _Part:
         """Whether a suite's test case is another file: here, at most its kind is said."""
         return not self.said.get(case, {}).keys() - {v.TYPE}
 
+    def _refuse_slips(self, subject: Term) -> None:
+        """Refuse a property that looks like a known one: ignored, the question would pass."""
+        from difflib import get_close_matches
+
+        for predicate in self.said.get(subject, {}):
+            if predicate in v.KNOWN or not predicate.startswith((v.OWLUNIT, SL)):
+                continue
+            for meant in get_close_matches(predicate, v.KNOWN, n=1, cutoff=0.9):
+                line = self.lines.of_iri(predicate)
+                problem = f"there is no property {local_name(predicate)!r}"
+                raise self.lines.error(line, f"{problem}; did you mean {local_name(meant)}?")
+
     def _question(self, subject: Term, kind: str) -> Question:
+        self._refuse_slips(subject)
         line = self._line(subject)
         own = NamedNode(subject.value) if isinstance(subject, NamedNode) else None
         identifier = self._one(subject, v.IDENTIFIER) or (

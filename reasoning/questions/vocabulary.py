@@ -25,6 +25,12 @@ TESTS_ONTOLOGY = OWLUNIT + "testsOntology"
 COMPARES_COLUMN = SL + "comparesColumn"
 KNOWN_FAILING = SL + "knownFailing"
 
+KNOWN = (
+    HAS_TEST_CASE, HAS_QUESTION, HAS_QUERY, HAS_EXPECTED, HAS_DATA, HAS_SHAPES, HAS_REASONER,
+    TESTS_ONTOLOGY, OWLUNIT + "hasInputTestDataCategory", COMPARES_COLUMN, KNOWN_FAILING,
+)  # fmt: skip
+"""Properties that a manifest may use; what comes close to one is a slip."""
+
 # Entailment regimes of SPARQL 1.1.
 ENTAILMENT_REGIME = "http://www.w3.org/ns/sparql-service-description#entailmentRegime"
 SIMPLE = "http://www.w3.org/ns/entailment/Simple"

@@ -247,3 +247,13 @@ def test_line_of_an_error_after_steps_back() -> None:
     )
     with pytest.raises(OntologySyntaxError, match=r"a\.ttl: line 48: "):
         parse("a.ttl", data)
+
+
+@pytest.mark.parametrize(
+    "end", ["@@", ":b :c (1 2", ':b :c "text', ":b :c [ :d", ":b", ":b :c <urn:x"]
+)
+def test_truncated_turtle_has_a_line(end: str) -> None:
+    data = f"@prefix : <urn:x#> .\n:a :b :c .\n:a {end}\n".encode()
+    with pytest.raises(OntologySyntaxError, match=r"a\.ttl: line [23]: \w") as caught:
+        parse("a.ttl", data)
+    assert "index out of range" not in str(caught.value)

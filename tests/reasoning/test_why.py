@@ -8,7 +8,13 @@ from pathlib import Path
 import pytest
 from rdflib import OWL, RDF, Graph, Namespace
 
-from symboslam.errors import InputError, OntologySyntaxError, UnknownNameError
+from symboslam.errors import (
+    InconsistentOntologyError,
+    InputError,
+    OntologySyntaxError,
+    ReasonerError,
+    UnknownNameError,
+)
 from symboslam.reasoning.axioms import split
 from symboslam.reasoning.hermit import Hermit
 from symboslam.reasoning.vocabulary import SL
@@ -65,7 +71,7 @@ def test_both_ways_are_found(hermit: None, bakery: Justifications) -> None:
 
 def test_axioms_know_where_they_stand(hermit: None, bakery: Justifications, mine: Path) -> None:
     (direct,) = bakery.sets[0]
-    assert direct.place == (str(mine), 10)
+    assert direct.place == (str(mine), 11)
     assert (direct.strength, direct.reason) == (0.75, "Towns eat bread.")
     places = {axiom.text: axiom.place for axiom in bakery.sets[1]}
     assert places["every Square partOf some Town"] == (str(mine), 7)
@@ -143,6 +149,51 @@ def test_sets_are_minimal(hermit: None, mine: Path) -> None:
         assert answers == [True, *[False] * len(fewer)]
 
 
+def test_no_set_contains_another(hermit: None, tmp_path: Path) -> None:
+    """A class without members is a kind of everything, which must not hide the direct axiom."""
+    path = tmp_path / "ghost.ttl"
+    path.write_text(
+        ONTOLOGY.replace("_:direct a owl", ":Ghost rdfs:subClassOf :Park .\n_:direct a owl")
+    )
+    found = why("Ghost is a Park", path, limit=10)
+    sets = texts(found)
+    assert {"every Ghost is a Park"} in sets
+    assert not any(one < other for one in sets for other in sets)
+    assert all(len(one) > 3 for one in sets if one != {"every Ghost is a Park"})
+
+
+def test_everything_follows_from_a_contradiction(hermit: None, tmp_path: Path) -> None:
+    path = tmp_path / "bad.ttl"
+    path.write_text(ONTOLOGY + "\n:one a :Shop , :Town .\n")
+    with pytest.raises(InconsistentOntologyError, match="everything follows"):
+        why("Shop is a Town", path)
+
+
+def test_ranges_of_numbers_are_told(hermit: None, tmp_path: Path) -> None:
+    path = tmp_path / "age.ttl"
+    prefixes = ONTOLOGY.partition("<https://example.org/x>")[0]
+    adult = (
+        "[ a rdfs:Datatype ; owl:onDatatype xsd:integer ; owl:withRestrictions ( [ xsd:%s %d ] ) ]"
+    )
+    path.write_text(
+        f"{prefixes}@prefix xsd: <http://www.w3.org/2001/XMLSchema#> .\n"
+        ":age a owl:DatatypeProperty , owl:FunctionalProperty .\n:Odd rdfs:subClassOf "
+        f"[ owl:onProperty :age ; owl:someValuesFrom {adult % ('minInclusive', 18)} ] , "
+        f"[ owl:onProperty :age ; owl:allValuesFrom {adult % ('maxExclusive', 18)} ] ."
+    )
+    (one,) = texts(why("Odd is unsatisfiable", path))
+    assert one == {"every Odd age some (integer >= 18)", "every Odd age only (integer < 18)"}
+
+
+def test_what_always_holds(hermit: None, mine: Path) -> None:
+    assert "holds in any ontology" in str(why("Shop is a Shop", mine))
+
+
+def test_a_search_without_time_says_so(hermit: None, mine: Path) -> None:
+    with pytest.raises(ReasonerError, match=r"within|longer than"):
+        why("Ghost is unsatisfiable", mine, seconds=0.01)
+
+
 def test_a_thing_said_twice_is_one_axiom(hermit: None, tmp_path: Path) -> None:
     path = tmp_path / "twice.ttl"
     prefixes = ONTOLOGY.partition("<https://example.org/x>")[0]
@@ -157,7 +208,7 @@ def test_a_thing_said_twice_is_one_axiom(hermit: None, tmp_path: Path) -> None:
 def test_text(hermit: None, bakery: Justifications, mine: Path) -> None:
     lines = as_text(bakery).splitlines()
     assert lines[0] == "Bakery indicates Town, because of these axioms (2 ways):"
-    assert f"  every Bakery indicates some Town  [{mine}: line 10]" in lines
+    assert f"  every Bakery indicates some Town  [{mine}: line 11]" in lines
     assert "    strength 0.75: Towns eat bread." in lines
 
 
@@ -169,7 +220,7 @@ def test_json(hermit: None, bakery: Justifications, mine: Path) -> None:
     assert [len(j["axioms"]) for j in record["justifications"]] == [1, 3]
     (axiom,) = record["justifications"][0]["axioms"]
     assert axiom["file"] == str(mine)
-    assert axiom["line"] == 10
+    assert axiom["line"] == 11
     assert axiom["strength"] == 0.75
     assert axiom["subject"] == "https://example.org/x#Bakery"
     assert axiom["names"] == [
@@ -184,7 +235,7 @@ def test_turtle_can_be_reasoned_over(hermit: None, bakery: Justifications) -> No
     graph = Graph().parse(data=as_turtle(bakery), format="turtle", publicID="urn:why")
     ways = sorted(graph.subjects(RDF.type, sl.Justification), key=str)
     assert [len(list(graph.objects(way, sl.usesAxiom))) for way in ways] == [1, 3]
-    assert {str(line) for line in graph.objects(None, sl.lineNumber)} >= {"10", "7"}
+    assert {str(line) for line in graph.objects(None, sl.lineNumber)} >= {"11", "7"}
     stated = {axiom.text for axiom in split(graph)[1]}
     assert BAKERY | SQUARE <= stated | {"indicates of partOf implies indicates"}
     for note in graph.subjects(RDF.type, OWL.Axiom):

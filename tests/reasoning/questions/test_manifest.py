@@ -279,3 +279,11 @@ def test_anonymous_nodes_of_two_files_stay_apart(tmp_path: Path) -> None:
     path.write_text("_:a <https://example.org/b> 1 .")
     one, other = read_quads(path), read_quads(path)
     assert one[0].subject != other[0].subject
+
+
+def test_a_property_spelt_wrongly_is_no_pass(load: Load) -> None:
+    with pytest.raises(InputError, match=r"line \d+: .*did you mean hasExpectedResult\?"):
+        load(f"""<#q> a owlunit:CompetencyQuestionVerification ; dcterms:identifier "q" ;
+    owlunit:hasCompetencyQuestion "Is it?" ; {ASK} ;
+    owlunit:hasExpectedResutl false ; owlunit:testsOntology <https://w3id.org/symboslam/core> .
+""")
