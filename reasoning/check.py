@@ -87,7 +87,7 @@ def check_ontology(paths: Sequence[str | Path] | str | Path | None = None) -> Re
     """Reason over an ontology and look for gaps; nothing is cached.
 
     Args:
-        paths: the file or files of an ontology; None for the bundled one.
+        paths: the file or files of an ontology; None for the bundled one with all its modules.
 
     Raises:
         InputError: a file cannot be read.
@@ -100,7 +100,7 @@ def check_ontology(paths: Sequence[str | Path] | str | Path | None = None) -> Re
     from symboslam.reasoning.statements import Statements
 
     if paths is None:
-        source, read = "bundled", files.read_bundled()
+        source, read = "bundled", files.read_closure([files.CLOSURE])
     else:
         given = [paths] if isinstance(paths, str | Path) else list(paths)
         source, read = ", ".join(map(str, given)), files.read_files([Path(p) for p in given])
