@@ -111,16 +111,18 @@ DEFINITIONS = (
 )
 
 
-def read_modules(paths: list[Path] | None) -> list[Module]:
+def read_modules(paths: list[Path] | None, strict: bool = False) -> list[Module]:
     """The modules to document, an imported one before those that import it.
 
     Args:
         paths: a user's ontology files, which bring the files that they import along; None for the
             bundled ontology.
+        strict: refuse missing and cyclic imports (see :func:`sources.read_files`).
 
     Raises:
         InputError: a file cannot be read.
         OntologySyntaxError: a file does not parse.
+        ImportsError: a missing or cyclic import, if strict.
         OntologyError: no file is given.
     """
     if paths is not None and not paths:
@@ -128,7 +130,7 @@ def read_modules(paths: list[Path] | None) -> list[Module]:
     if paths is None:
         found = [_bundled(name, file, True) for name, file in sources.closure_files().items()]
     else:
-        found = _of_user(paths)
+        found = _of_user(paths, strict)
     return _imported_first(_with_own_pages(found))
 
 
@@ -136,11 +138,11 @@ def _bundled(name: str, file: Traversable, is_own: bool) -> Module:
     return Module(name.removesuffix(".ttl"), "", parse(name, file.read_bytes()), is_own)
 
 
-def _of_user(paths: list[Path]) -> list[Module]:
+def _of_user(paths: list[Path], strict: bool) -> list[Module]:
     """A user's files, those beside them that they import, and the bundled ones that they import."""
     folder = paths[0].resolve().parent
     found = []
-    for relative in sources.read_files(paths).files:
+    for relative in sources.read_files(paths, strict).files:
         path = folder / relative
         name = relative.rpartition(".")[0] or relative
         graph = parse(str(path), sources.read_bytes(path))

@@ -98,6 +98,7 @@ def build_site(
     paths: list[Path] | None = None,
     *,
     questions: str | None = None,
+    strict: bool = False,
     progress: Progress = lambda stage, share: None,
 ) -> Site:
     """Build the documentation of an ontology.
@@ -105,6 +106,7 @@ def build_site(
     Args:
         paths: a user's ontology files; None for the bundled ontology.
         questions: a report on competency questions in HTML, to go along.
+        strict: refuse missing and cyclic imports.
         progress: called with what is done now and the share that is done.
 
     Raises:
@@ -113,7 +115,7 @@ def build_site(
         ReasonerError: it states indications, is not reasoned over yet, and there is no Java.
     """
     progress("reading modules", 0.05)
-    library = Library(read_modules(paths))
+    library = Library(read_modules(paths, strict))
     evidence = None
     if Statements(library.graph).indications:
         progress("reasoning", 0.2)

@@ -108,3 +108,14 @@ def test_bad_questions(run: Any, tmp_path: Path) -> None:
     done = run("why", "inconsistent", "--ontology", tmp_path / "none.ttl")
     assert done.code == 2
     assert "none.ttl: No such file" in done.err
+
+
+def test_pages_are_not_made_of_half_an_ontology(
+    run: Any, broken: dict[str, Path], tmp_path: Path
+) -> None:
+    done = run("ontology", "docs", broken["import"], "--out", tmp_path / "pages")
+    assert done.code == 2
+    assert "import.ttl: line 3: the import <urn:nowhere> was not found" in done.err
+    assert not (tmp_path / "pages").exists()
+    lenient = ("--lenient-imports", "--out", tmp_path / "pages")
+    assert run("ontology", "docs", broken["import"], *lenient).code == 0

@@ -25,6 +25,7 @@ INDICATION = """
    owl:annotatedTarget [ owl:onProperty sl:indicates ; owl:someValuesFrom :Wood ] ;
 """
 BAD = {
+    "annotation-of-nothing": INDICATION + "a owl:Axiom .",
     "class-cycle": ":A rdfs:subClassOf :B . :B rdfs:subClassOf :A .",
     "definition-copied": ':A skos:definition "A hut."@en . :B skos:definition "A hut."@en .',
     "definition-equals-label": ':A rdfs:label "Hut"@en ; skos:definition "A hut."@en .',

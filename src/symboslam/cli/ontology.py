@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from symboslam.cli.common import progress_bar, show
+from symboslam.cli.common import LenientOption, progress_bar, show
 
 app = typer.Typer(
     help="Work on ontologies.",
@@ -107,6 +107,7 @@ def docs(
             show_default=False,
         ),
     ] = None,
+    lenient: LenientOption = False,
 ) -> None:
     """Write pages about an ontology: reference, diagrams, the features of each environment type.
 
@@ -122,6 +123,6 @@ def docs(
         except (OSError, UnicodeDecodeError) as error:
             raise InputError(f"{questions} cannot be read: {error}") from error
     with progress_bar() as progress:
-        site = build_site(files or None, questions=report, progress=progress)
+        site = build_site(files or None, questions=report, strict=not lenient, progress=progress)
         first = site.write(out)
     show(f"{len(site.files)} files; open in a browser: {first}")
