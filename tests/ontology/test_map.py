@@ -43,6 +43,7 @@ e:measurement a sl:LandmarkMeasurement ; sl:constraintFrom e:p2 ; sl:constraintT
     sl:bearing 0.3 ; sl:range 12.5 ; sl:measuredBy e:seen .
 e:seen a sl:LandmarkObservation ; sosa:hasFeatureOfInterest e:house ; sl:observedFrom e:p2 .
 e:house a sl:Landmark ; os:hasPosition e:there ; sl:mergedInto e:theHouse .
+e:house prov:wasAttributedTo e:rover1 .
 e:map1 a sl:AgentMap ; prov:wasAttributedTo e:rover1 ; sl:builtFrom e:graph1 .
 e:map2 a sl:AgentMap ; prov:wasAttributedTo e:rover2 .
 e:whole a sl:CollectiveMap ; sl:mergedFrom e:map1 , e:map2 .
@@ -166,6 +167,7 @@ INFERRED = [
     "e:p2 sl:hasObservation e:seen",
     "e:p1 time:hasTime e:t1",
     "e:whole sl:contributedBy e:rover2",
+    "e:theHouse sl:contributedBy e:rover1",
     "e:whole prov:wasInfluencedBy e:map1",
     "e:theHouse sl:mergedFrom e:house",
     "e:s2 sl:adjacentTo e:s1",
@@ -194,6 +196,11 @@ def test_what_follows(hermit: Hermit, merged: Graph, fact: str, follows: bool) -
     assert consistent(hermit, merged, facts(TEAM), denial) != follows
 
 
+def test_a_merged_landmark_is_no_map(hermit: Hermit, merged: Graph) -> None:
+    """Who contributed is told of landmarks as well as of maps."""
+    assert consistent(hermit, merged, facts(TEAM), facts("e:theHouse a sl:Landmark ."))
+
+
 @pytest.mark.parametrize(
     "data",
     [
@@ -204,6 +211,7 @@ def test_what_follows(hermit: Hermit, merged: Graph, fact: str, follows: bool) -
         "e:track1 sl:trackOf e:rover2 .",
         "e:whole a sl:AgentMap .",
         "e:house a sl:Segment .",
+        "e:house a sl:LandmarkSet .",
         "e:s1 sl:adjacentTo e:s1 .",
         "e:rover1 a sl:Pose .",
         "e:measurement sl:range 13.0 .",
