@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -82,6 +82,20 @@ class Reasoner(ABC):
             OntologyError: the axioms are outside OWL 2 DL.
             ReasonerError: the reasoner could not be run.
         """
+
+    def all_clashes(
+        self, ontologies: Sequence[Iterable[Triple]], unsatisfiable: str | None = None
+    ) -> list[bool]:
+        """Which ontologies clash: an answer for each; :meth:`clashes` is asked as often as needed.
+
+        Raises:
+            OntologyError: the axioms are outside OWL 2 DL.
+            ReasonerError: the reasoner could not be run.
+        """
+        answers: list[bool] = []
+        while len(answers) < len(ontologies):
+            answers += self.clashes(ontologies[len(answers) :], unsatisfiable)
+        return answers
 
     @abstractmethod
     def clashes(

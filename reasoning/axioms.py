@@ -53,6 +53,11 @@ _FACETS = {
     "maxInclusive": "<=",
     "maxExclusive": "<",
 }
+SYMMETRIC = (
+    OWL.equivalentClass, OWL.disjointWith, OWL.inverseOf, OWL.equivalentProperty,
+    OWL.propertyDisjointWith, OWL.sameAs, OWL.differentFrom,
+)  # fmt: skip
+"""Predicates whose axioms say the same with their sides changed over."""
 _BLOCKS = (
     OWL.AllDisjointClasses, OWL.AllDisjointProperties, OWL.AllDifferent,
     OWL.NegativePropertyAssertion,

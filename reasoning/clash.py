@@ -12,16 +12,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from time import monotonic
 
-from rdflib import OWL, RDF, RDFS, BNode, URIRef
+from rdflib import RDF, RDFS, BNode, URIRef
 from rdflib.term import Node
 
 from symboslam.errors import InconsistentOntologyError
 from symboslam.reasoning._base import Hierarchy, Reasoner
-from symboslam.reasoning.axioms import Axiom, Triple
+from symboslam.reasoning.axioms import SYMMETRIC, Axiom, Triple
 from symboslam.reasoning.locality import module
 from symboslam.reasoning.vocabulary import OWL_NAMESPACE, local_name
 
-_BOTH_WAYS = (OWL.disjointWith, OWL.equivalentClass, OWL.inverseOf, OWL.equivalentProperty)
 _SECONDS = 40.0
 _WIDTH = 64  # questions at a time
 _NAMED = 8  # classes that the message names
@@ -137,7 +136,7 @@ def _neighbourhoods(axioms: Sequence[Axiom], start: str | None) -> list[list[Axi
 def _is_about(axiom: Axiom, known: set[Node]) -> bool:
     if axiom.subject in known or isinstance(axiom.subject, BNode):
         return True
-    return axiom.predicate in _BOTH_WAYS and axiom.object in known
+    return axiom.predicate in SYMMETRIC and axiom.object in known
 
 
 def _is_fact(axiom: Axiom) -> bool:

@@ -10,17 +10,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from time import monotonic
 
-from rdflib import OWL
-
 from symboslam.reasoning._base import Reasoner
-from symboslam.reasoning.axioms import Axiom, Triple
+from symboslam.reasoning.axioms import SYMMETRIC, Axiom, Triple
 from symboslam.reasoning.clash import explain
 from symboslam.reasoning.locality import module
-
-_UNORDERED = (
-    OWL.disjointWith, OWL.inverseOf, OWL.equivalentClass, OWL.equivalentProperty,
-    OWL.propertyDisjointWith, OWL.sameAs, OWL.differentFrom,
-)  # fmt: skip
 
 
 def minimal_sets(
@@ -52,8 +45,8 @@ def minimal_sets(
     def without(path: Iterable[Axiom]) -> list[Axiom]:
         return [axiom for axiom in axioms if axiom not in path]
 
-    def with_fixed(path: Iterable[Axiom]) -> list[Axiom]:
-        return [*fixed, *without(path)]
+    def triples_without(path: Iterable[Axiom]) -> list[Triple]:
+        return [*declared, *(t for axiom in (*fixed, *without(path)) for t in axiom.triples)]
 
     found: list[list[Axiom]] = []
     harmless: set[frozenset[Axiom]] = set()  # without these the clash is gone
@@ -63,7 +56,7 @@ def minimal_sets(
             return found, False
         level = {path for path in level if not any(gone <= path for gone in harmless)}
         order = sorted(level, key=lambda path: sorted(axiom.text for axiom in path))
-        answers = _all_answers(reasoner, declared, [with_fixed(p) for p in order], unsatisfiable)
+        answers = reasoner.all_clashes([triples_without(p) for p in order], unsatisfiable)
         harmless |= {path for path, clashes in zip(order, answers, strict=True) if not clashes}
         deeper: set[frozenset[Axiom]] = set()
         for path, clashes in zip(order, answers, strict=True):
@@ -88,19 +81,5 @@ def _each_once(axioms: Sequence[Axiom]) -> list[Axiom]:
     kept: dict[object, Axiom] = {}
     for axiom in axioms:
         sides = frozenset((axiom.subject, axiom.object))
-        kept.setdefault((axiom.predicate, sides) if axiom.predicate in _UNORDERED else axiom, axiom)
+        kept.setdefault((axiom.predicate, sides) if axiom.predicate in SYMMETRIC else axiom, axiom)
     return list(kept.values())
-
-
-def _all_answers(
-    reasoner: Reasoner,
-    declared: list[Triple],
-    candidates: list[list[Axiom]],
-    unsatisfiable: str | None,
-) -> list[bool]:
-    """Which candidates clash; a reasoner may end with the first one, and is asked again."""
-    ontologies = [[*declared, *(t for a in c for t in a.triples)] for c in candidates]
-    answers: list[bool] = []
-    while len(answers) < len(ontologies):
-        answers += reasoner.clashes(ontologies[len(answers) :], unsatisfiable)
-    return answers

@@ -66,6 +66,7 @@ class Sources:
         files: name -> SHA-256 of each user file and each file found for an import.
         missing: IRIs of imports that were not found, and so are left out.
         bundled: IRIs of imports by files that are bundled modules.
+        documents: name -> graph of each file that was merged, as it is shown in places.
         places: triple -> where it is stated.
         notes: what is odd about the files; always empty after a strict reading.
     """
@@ -74,6 +75,7 @@ class Sources:
     files: dict[str, str] = field(default_factory=dict)
     missing: tuple[str, ...] = ()
     bundled: set[str] = field(default_factory=set)
+    documents: dict[str, LocatedGraph] = field(default_factory=dict)
     places: dict[Triple, Place] = field(default_factory=dict)
     notes: tuple[Note, ...] = ()
 
@@ -153,6 +155,7 @@ def read_bundled() -> Sources:
 
 def _add(read: Sources, name: str, one: LocatedGraph) -> None:
     read.graph += one
+    read.documents[name] = one
     for prefix, namespace in one.namespaces():
         read.graph.bind(prefix, namespace, override=False)
     for triple in one:

@@ -29,7 +29,6 @@ IN_UPSTREAM_DATA_ONLY = SL + "inUpstreamDataOnly"
 
 # Ontology documents: DOCUMENTS + "core" is what an ontology of one's own imports.
 DOCUMENTS = "https://w3id.org/symboslam/"
-CORE = DOCUMENTS + "core"
 
 # Terms of others.
 DERIVED_FROM = "http://www.w3.org/ns/prov#wasDerivedFrom"

@@ -163,9 +163,6 @@ class EnvironmentPages:
             data_row=True,
         )  # fmt: skip
 
-    def _row_link(self, row: Row) -> str:
-        return f"#{self.anchors[row.feature.iri]}"
-
     def _path(self, path: tuple[str, ...], feature: str) -> Markup:
         """The way from a feature to the environment, with links."""
         links = []

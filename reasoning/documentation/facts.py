@@ -11,6 +11,7 @@ from rdflib.collection import Collection
 from rdflib.term import Node
 
 from symboslam.reasoning import vocabulary as v
+from symboslam.reasoning.axioms import SYMMETRIC
 from symboslam.reasoning.documentation.expressions import Expressions, is_indication, literal
 from symboslam.reasoning.documentation.library import KINDS, Library, Term
 from symboslam.reasoning.documentation.markup import Markup, join, safe_colour, tag, text
@@ -35,10 +36,6 @@ _HEADINGS: dict[URIRef, str] = {
     RDFS.seeAlso: "see also",
     RDFS.isDefinedBy: "defined by",
 }
-_BOTH_WAYS = (
-    OWL.equivalentClass, OWL.equivalentProperty, OWL.sameAs, OWL.disjointWith,
-    OWL.propertyDisjointWith, OWL.inverseOf, OWL.differentFrom,
-)  # fmt: skip
 _CHARACTERISTICS = {
     OWL.FunctionalProperty: "functional: at most one value",
     OWL.InverseFunctionalProperty: "inverse functional: each value belongs to one thing",
@@ -148,7 +145,7 @@ class Facts:
         found: dict[str, list[tuple[URIRef, str, Module]]] = defaultdict(list)
         for s, stated in self.library.statements.items():
             for p, o, module in stated:
-                if p in _BOTH_WAYS and isinstance(o, URIRef):
+                if p in SYMMETRIC and isinstance(o, URIRef):
                     found[str(o)].append((p, str(s), module))
         return {o: sorted(stated, key=lambda x: (x[0], x[1])) for o, stated in found.items()}
 

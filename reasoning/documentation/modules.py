@@ -6,18 +6,14 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
+from os.path import relpath
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from rdflib import DC, DCTERMS, OWL, RDF, RDFS, SKOS, Graph, Literal, URIRef
 from rdflib.term import Node
 
 from symboslam.errors import OntologyError
 from symboslam.reasoning import sources
-from symboslam.reasoning.parsing import parse
-
-if TYPE_CHECKING:
-    from importlib.resources.abc import Traversable
 
 
 @dataclass(eq=False)
@@ -117,7 +113,7 @@ def read_modules(paths: list[Path] | None, strict: bool = False) -> list[Module]
     Args:
         paths: a user's ontology files, which bring the files that they import along; None for the
             bundled ontology.
-        strict: refuse missing and cyclic imports (see :func:`sources.read_files`).
+        strict: refuse missing and cyclic imports (see :func:`sources.read_closure`).
 
     Raises:
         InputError: a file cannot be read.
@@ -127,35 +123,19 @@ def read_modules(paths: list[Path] | None, strict: bool = False) -> list[Module]
     """
     if paths is not None and not paths:
         raise OntologyError("no ontology file is given")
-    if paths is None:
-        found = [_bundled(name, file, True) for name, file in sources.closure_files().items()]
-    else:
-        found = _of_user(paths, strict)
-    return _imported_first(_with_own_pages(found))
-
-
-def _bundled(name: str, file: Traversable, is_own: bool) -> Module:
-    return Module(name.removesuffix(".ttl"), "", parse(name, file.read_bytes()), is_own)
-
-
-def _of_user(paths: list[Path], strict: bool) -> list[Module]:
-    """A user's files, those beside them that they import, and the bundled ones that they import."""
-    folder = paths[0].resolve().parent
+    read = sources.read_closure([sources.CLOSURE] if paths is None else paths, strict)
+    folder = paths[0].resolve().parent if paths else Path()
+    bundled = sources.closure_files()
     found = []
-    for relative in sources.read_files(paths, strict).files:
-        path = folder / relative
-        name = relative.rpartition(".")[0] or relative
-        graph = parse(str(path), sources.read_bytes(path))
-        found.append(Module(name.replace("../", ""), "", graph))
-    bundled, read = sources.closure_files(), set[str]()
-    waiting = [iri for module in found for iri in module.imports]
-    while waiting:
-        name = sources.bundled_name(waiting.pop())
-        if name in bundled and name not in read:
-            read.add(name)
-            found.append(_bundled(name, bundled[name], False))
-            waiting.extend(found[-1].imports)
-    return found
+    for shown, graph in read.documents.items():
+        is_own = paths is None or shown not in bundled
+        name = (
+            shown if shown in bundled else Path(relpath(Path(shown).resolve(), folder)).as_posix()
+        )
+        found.append(
+            Module((name.rpartition(".")[0] or name).replace("../", ""), "", graph, is_own)
+        )
+    return _imported_first(_with_own_pages(found))
 
 
 def _with_own_pages(modules: list[Module]) -> list[Module]:

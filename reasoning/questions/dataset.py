@@ -195,7 +195,7 @@ class Datasets:
         data = question.data if with_data else ()
         return self._once(
             ("consistent", question.ontologies, data),
-            lambda: not self._clash([self.logic(question, with_data)])[0],
+            lambda: not self.reasoner.all_clashes([self.logic(question, with_data).module()])[0],
         )
 
     def ontologies_consistent(self, questions: Sequence[Question]) -> dict[Targets, bool]:
@@ -206,16 +206,11 @@ class Datasets:
         own = {q.ontologies: q for q in questions}
 
         def make() -> dict[Targets, bool]:
-            clashing = self._clash([self.logic(q, with_data=False) for q in own.values()])
+            alone = [self.logic(q, with_data=False).module() for q in own.values()]
+            clashing = self.reasoner.all_clashes(alone)
             return {t: not clash for t, clash in zip(own, clashing, strict=True)}
 
         return self._once(("consistent", frozenset(own)), make)
-
-    def _clash(self, ontologies: Sequence[Logic]) -> list[bool]:
-        found: list[bool] = []
-        while len(found) < len(ontologies):  # HermiT stops at the first that clashes
-            found += self.reasoner.clashes([one.module() for one in ontologies[len(found) :]])
-        return found
 
     def hierarchy(self, question: Question) -> Hierarchy | None:
         """The classes of a question's ontology; None if it contradicts itself."""

@@ -228,9 +228,5 @@ def _base(query: Query) -> str:
     return query.file.resolve().as_uri()
 
 
-def _line(text: str, number: int) -> str:
-    return text.split("\n")[number - 1]
-
-
 def _error(query: Query, line: int, problem: str) -> InputError:
     return InputError(f"{query.file}: line {query.line + line - 1}: {problem}")
