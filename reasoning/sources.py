@@ -47,7 +47,7 @@ class Note(NamedTuple):
     """Something odd about the files of an ontology.
 
     Attributes:
-        kind: ``missing-import``, ``cyclic-import`` or ``byte-order-mark``.
+        kind: ``missing-import``, ``cyclic-import``, ``byte-order-mark`` or ``empty-file``.
         subject: the import's IRI, or the file.
         message: what is odd, with file and line.
     """
@@ -185,10 +185,10 @@ def read_files(paths: Iterable[Path], strict: bool = False) -> Sources:
 
     Args:
         paths: the files.
-        strict: refuse an import that is not found or that leads back to where it came from, and
-            a byte-order mark, instead of noting it. OWL 2 allows ontologies that import each
-            other, and they are read well; but in an ontology of one's own such a circle, as the
-            other two, is mostly a slip that another program will stumble over.
+        strict: refuse an import that is not found or that leads back to where it came from,
+            a byte-order mark and an empty file, instead of noting it. OWL 2 allows ontologies
+            that import each other, and they are read well; but in an ontology of one's own such
+            a circle, as the rest, is mostly a slip that another program will stumble over.
 
     Raises:
         InputError: a file cannot be read.
@@ -250,6 +250,9 @@ def _read(paths: list[Path], modules: set[str], strict: bool) -> Sources:
                 notes.append(Note("byte-order-mark", shown, problem))
             done.add(name)
             one = parse(shown, data)
+            if not one:
+                problem = f"{Place(shown, 1)}: states nothing at all"
+                notes.append(Note("empty-file", shown, problem))
             _add(read, shown, one)
             imports[name] = {}
             iris = (*one.subjects(RDF.type, OWL.Ontology), *one.objects(None, OWL.versionIRI))
@@ -289,7 +292,7 @@ def _read(paths: list[Path], modules: set[str], strict: bool) -> Sources:
 
 def _refusal(notes: Sequence[Note]) -> OntologySyntaxError | ImportsError:
     text = "\n".join(note.message for note in notes)
-    if all(note.kind == "byte-order-mark" for note in notes):
+    if all(note.kind in ("byte-order-mark", "empty-file") for note in notes):
         return OntologySyntaxError(text)
     kinds = {note.kind for note in notes}
     remedies = []

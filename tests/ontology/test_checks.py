@@ -25,6 +25,8 @@ INDICATION = """
    owl:annotatedTarget [ owl:onProperty sl:indicates ; owl:someValuesFrom :Wood ] ;
 """
 BAD = {
+    "place-restriction": ":A rdfs:subClassOf sl:Place , [ owl:onProperty :near ; "
+    "owl:someValuesFrom :B ] .",
     "annotation-of-nothing": INDICATION + "a owl:Axiom .",
     "class-cycle": ":A rdfs:subClassOf :B . :B rdfs:subClassOf :A .",
     "definition-copied": ':A skos:definition "A hut."@en . :B skos:definition "A hut."@en .',

@@ -63,6 +63,13 @@ def test_byte_order_mark(tmp_path: Path) -> None:
     assert len(sources.read_closure([a], strict=False).graph) == 1
 
 
+def test_empty_file(tmp_path: Path) -> None:
+    (tmp_path / "a.ttl").write_text("# nothing\n")
+    with pytest.raises(OntologySyntaxError, match=r"a\.ttl: line 1: states nothing"):
+        sources.read_closure([tmp_path / "a.ttl"])
+    assert not len(sources.read_closure([tmp_path / "a.ttl"], strict=False).graph)
+
+
 def test_catalog(tmp_path: Path) -> None:
     (tmp_path / "deep down").mkdir()
     b = write(tmp_path / "deep down" / "any name.ttl", "urn:b")

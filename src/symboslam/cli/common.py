@@ -39,8 +39,8 @@ LenientOption = Annotated[
     bool,
     typer.Option(
         "--lenient-imports",
-        help="Read on where an import is missing or goes in a circle, or a file begins with a "
-        "byte-order mark.",
+        help="Read on where an import is missing or goes in a circle, or a file is empty or "
+        "begins with a byte-order mark.",
     ),
 ]
 
