@@ -113,7 +113,7 @@ class Records:
                 observation.append(self._when(str(marks.time[i])))
             if marks.agent is not None and marks.agent[i]:
                 agent = s.own("agent", str(marks.agent[i]))
-                observation.append((s.iri(PROV + "wasAttributedTo"), [agent]))
+                observation.append((s.iri(PROV + "wasAssociatedWith"), [agent]))
             yield s.own("observation", name), observation
 
     def _when(self, time: str) -> Property:
@@ -157,8 +157,7 @@ class Records:
             for e, p in zip(self.content.environment_names, row, strict=True)
         ]
         found: Properties = [
-            self.a(SL + "SegmentClassification", SOSA + "Observation", PROV + "Entity"),
-            (s.iri(PROV + "wasGeneratedBy"), [s.own("run")]),
+            self.a(SL + "SegmentClassification", SOSA + "Observation"),
             (s.iri(SOSA + "hasFeatureOfInterest"), [segment]),
             (s.iri(SOSA + "observedProperty"), [s.iri(SL + "environment")]),
             (
@@ -166,6 +165,7 @@ class Records:
                 [
                     [
                         self.a(SL + "EnvironmentDistribution"),
+                        (s.iri(PROV + "wasGeneratedBy"), [s.own("run")]),
                         (s.iri(SL + "hasProbability"), distribution),
                     ]
                 ],

@@ -239,6 +239,10 @@ def test_the_whole_closure_is_consistent_and_bridges_hold(hermit: Hermit, closur
     assert prov + "Person" in above(SL.Operator)
     assert prov + "SoftwareAgent" in above(SL.ControlAgent)
     assert prov + "SoftwareAgent" not in robot
+    for finding in (SL.LandmarkObservation, SL.SegmentClassification):
+        assert above(finding) & {prov + "Activity", prov + "Entity"} == {prov + "Activity"}
+    for result in (SL.Detection, SL.EnvironmentDistribution):
+        assert above(result) & {prov + "Activity", prov + "Entity"} == {prov + "Entity"}
     house = above(OLD.House)
     assert {str(SL.House), "http://purl.obolibrary.org/obo/ENVO_00000073"} <= house
     assert not house & {str(SL.Place), str(SL.Environment), str(O4M.Environment)}

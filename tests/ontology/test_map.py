@@ -138,6 +138,8 @@ def test_every_term_of_others_that_map_uses_is_declared(merged: Graph, module: G
         (SL.MapMerging, PROV.Activity),
         (SL.CoordinateSystem, CORA.CoordinateSystem),
         (SL.LandmarkObservation, SOSA.Observation),
+        (SL.Detection, PROV.Entity),
+        (SL.EnvironmentDistribution, PROV.Entity),
         (CORA.Robot, PROV.Agent),
         (O4M.Swarm, O4M.Team),
         (O4M.Artificial, PROV.Agent),
