@@ -13,9 +13,10 @@ RUN := .venv/bin/symboslam
 # The stamp's name holds the folder's path, so that a copied or moved tree is installed anew.
 STAMP := .venv/.installed-$(shell pwd -P | cksum | cut -d ' ' -f 1)
 BENCHMARK ?= ../shared/benchmark
+UPSTREAM ?= ../shared/upstream
 SEED ?= 7
 
-.PHONY: help demo test test-slow lint format bench docs knowledge results picture proofs acceptance system wheel clean
+.PHONY: help demo test test-slow lint format bench docs knowledge pitfalls results picture proofs acceptance system wheel clean
 
 help: ## list the targets
 	@grep -E '^[a-z.][a-z.-]*:.*## ' Makefile | sed -E 's/^([a-z.-]+):.*## /\1\t/' | expand -t 14
@@ -67,6 +68,9 @@ docs: $(STAMP) ## write docs/cli.md anew, and pages about the ontology into buil
 knowledge: $(STAMP) ## reason over the bundled ontology anew
 	@$(PY) -m symboslam.reasoning.bundle
 
+pitfalls: $(STAMP) ## scan our ontology for pitfalls, write pitfall_reports/ (and docs/upstream-pitfalls.md)
+	@$(PY) scripts/pitfall_reports.py --upstream "$(UPSTREAM)"
+
 results: $(STAMP) ## score against the benchmark in $(BENCHMARK), write docs/results.md
 	@$(PY) scripts/results.py --benchmark "$(BENCHMARK)"
 
@@ -79,7 +83,7 @@ proofs: $(STAMP) ## prove the ontology sound (needs Java; with Maven ROBOT check
 acceptance: $(STAMP) ## ask the ontology all questions, write build/acceptance/report.html (needs Java)
 	@$(PY) -m robot --outputdir build/acceptance --console dotted competency_questions/acceptance.robot
 
-system: ## install Chromium, Java and Maven for the tests that need them (Debian, as root)
+system: ## install Chromium, Java, Maven and WordNet for the tests that need them (Debian, as root)
 	@scripts/install-system
 
 wheel: $(STAMP) ## build wheel and sdist into dist/ and try the wheel in a fresh environment

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from bench import cases
 from bench.measure import machine
+from bench.pitfalls import pitfalls
 from bench.reasoning import reasoning
 
 CASES: dict[str, tuple[Callable[[], str], Callable[[], str]]] = {
@@ -29,6 +30,10 @@ CASES: dict[str, tuple[Callable[[], str], Callable[[], str]]] = {
     "start-up": (lambda: cases.start_up(11), lambda: cases.start_up(1)),
     "knowledge": (cases.knowledge, cases.knowledge),
     "reasoning": (lambda: reasoning(5), lambda: reasoning(1)),
+    "pitfalls": (
+        lambda: pitfalls((10_000, 30_000, 100_000, 300_000), 5),
+        lambda: pitfalls((500, 1000), 1),
+    ),
 }
 
 

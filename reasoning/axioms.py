@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from rdflib import OWL, RDF, RDFS, BNode, Graph, URIRef
-from rdflib.collection import Collection
 from rdflib.term import Node
 
 from symboslam.reasoning.vocabulary import OWL_NAMESPACE, RDF_NAMESPACE, local_name
@@ -167,8 +166,13 @@ class Words:
         self.graph, self.name = graph, name
 
     def members(self, node: Node | None) -> list[Node]:
-        """The items of an RDF list."""
-        return [] if node is None else list(Collection(self.graph, node))
+        """The items of an RDF list; a list that leads back to itself ends there."""
+        found, seen = [], {None}
+        while node not in seen and (node, RDF.first, None) in self.graph:
+            seen.add(node)
+            found += [item for item in [self.graph.value(node, RDF.first)] if item is not None]
+            node = self.graph.value(node, RDF.rest)
+        return found
 
     def expression(self, node: Node) -> str:
         """A class expression, such as ``Feature and indicates some Residential``."""

@@ -7,11 +7,15 @@ look at their state at the moment when they add a triple.
 from __future__ import annotations
 
 import io
+import json
+import re
 from bisect import bisect_left, bisect_right
+from collections.abc import Callable, Iterable
 from typing import Any, Self
+from urllib.parse import urljoin
 from xml.parsers import expat
 
-from rdflib import Graph
+from rdflib import BNode, Graph
 from rdflib.plugins.parsers.notation3 import RDFSink, SinkParser
 from rdflib.plugins.parsers.rdfxml import RDFXMLHandler
 from rdflib.term import Node
@@ -38,6 +42,38 @@ class LocatedGraph(Graph):
             self.lines.setdefault(triple, self.line)
         super().add(triple)
         return self
+
+
+def spread_lines(
+    triples: Iterable[Triple], lines: dict[Triple, int], is_inside: Callable[[BNode], bool]
+) -> None:
+    """Give the lines of statements also to those of the anonymous expressions inside them.
+
+    Args:
+        triples: all triples of a file.
+        lines: those known; the others are added.
+        is_inside: whether an anonymous node is a part of what speaks of it.
+    """
+    about: dict[Node, list[Triple]] = {}
+    for triple in triples:
+        if isinstance(triple[0], BNode):
+            about.setdefault(triple[0], []).append(triple)
+    waiting = [
+        (node, line)
+        for triple, line in lines.items()
+        for node in (triple[0], triple[2])
+        if isinstance(node, BNode) and is_inside(node)
+    ]
+    seen: set[Node] = set()
+    while waiting:
+        node, line = waiting.pop()
+        if node in seen:
+            continue
+        seen.add(node)
+        for triple in about.get(node, ()):
+            lines.setdefault(triple, line)
+            if isinstance(triple[2], BNode) and is_inside(triple[2]):
+                waiting.append((triple[2], line))
 
 
 def parse_turtle(graph: LocatedGraph, data: bytes, base: str) -> None:
@@ -191,3 +227,68 @@ class OwlXmlLines:
         both = zip(self._starts, self._tags, strict=True)
         dropped = (b for b in both if b[0] not in self._stated and b[1] != "Prefix")
         return next(dropped, None)
+
+
+_JSON_ID = re.compile(r'(\{\s*)?("(?:[^"\\]|\\.)*")(\s*:\s*)?("(?:[^"\\]|\\.)*")?(\s*\})?')
+
+
+def json_ld_lines(text: str, document: Any, base: str) -> dict[str, int]:
+    """IRI -> the line of JSON-LD on which the node with this ``@id`` is described.
+
+    That is the first place where more than the ``@id`` is given, else the first of all. Where two
+    contexts in the document explain a prefix differently, no IRI with it is found.
+    """
+    prefixes, keys, bases = _json_ld_contexts(document)
+    base = urljoin(base, bases.pop()) if len(bases) == 1 else "" if bases else base
+    found: dict[str, int] = {}
+    mentioned: dict[str, int] = {}
+    line, counted = 1, 0
+    for match in _JSON_ID.finditer(text):
+        key, value = match[2], match[4]
+        if not (match[3] and value and json.loads(key) in keys):
+            continue
+        at = match.start(4)
+        line += text.count("\n", counted, at)
+        counted = at
+        iri: str | None = json.loads(value)
+        prefix, colon, rest = str(iri).partition(":")
+        if prefix == "_" and colon:
+            pass
+        elif colon and prefix in prefixes and not rest.startswith("//"):
+            namespace = prefixes[prefix]
+            iri = namespace + rest if namespace is not None else None
+        elif not colon:
+            iri = urljoin(base, str(iri)) if base else None
+        if iri is not None:
+            alone = match[1] is not None and match[5] is not None
+            (mentioned if alone else found).setdefault(iri, line)
+    return {**mentioned, **found}
+
+
+def _json_ld_contexts(document: Any) -> tuple[dict[str, str | None], set[str], set[str]]:
+    """Prefix -> namespace (None where it has several), names of ``@id``, and base IRIs."""
+    prefixes: dict[str, str | None] = {}
+    keys, bases = {"@id"}, set()
+    waiting = [document]
+    contexts: list[dict[str, Any]] = []
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, list):
+            waiting += node
+        elif isinstance(node, dict):
+            context = node.get("@context", [])
+            several = context if isinstance(context, list) else [context]
+            contexts += (c for c in several if isinstance(c, dict))
+            waiting += node.values()
+    for context in contexts:
+        for name, meaning in context.items():
+            iri = meaning.get("@id") if isinstance(meaning, dict) else meaning
+            if name == "@base" and isinstance(iri, str):
+                bases.add(iri)
+            elif iri == "@id":
+                keys.add(name)
+            elif not name.startswith("@"):
+                iri = iri if isinstance(iri, str) and "://" in iri else None
+                if prefixes.setdefault(name, iri) != iri:
+                    prefixes[name] = None
+    return prefixes, keys, bases

@@ -30,11 +30,18 @@ _BY_EXTENSION = {
     ".fss": "functional syntax",
     ".obo": "OBO format",
 }
-_UNSUPPORTED = ("Manchester syntax", "functional syntax", "OBO format")
-EXTENSIONS = (".ttl", ".owl", ".rdf", ".xml", ".owx", ".nt", ".n3", ".jsonld", ".json")
-"""Extensions that an ontology file may have here; the content decides where they do not."""
+_UNSUPPORTED = ("Manchester syntax", "OBO format")
+EXTENSIONS = (
+    ".ttl", ".owl", ".rdf", ".xml", ".owx", ".ofn", ".nt", ".n3", ".jsonld", ".json",
+)  # fmt: skip
+"""Extensions that an ontology file may have here; a content that is plainly another wins."""
 
 _RDF_XML_ERROR = re.compile(r"[^\s]*?:(\d+):\d+: (.*)", re.DOTALL)  # base:line:column: problem
+_SPACE = rb"(?:\s|#[^\n]*(?:\n|\Z))*+"  # comments too
+_FUNCTIONAL_START = re.compile(_SPACE + rb"(?:Prefix|Ontology)\s*\(")
+_MANCHESTER_START = re.compile(_SPACE + rb"(?:Prefix|Ontology):")
+_TURTLE_START = re.compile(_SPACE + rb"(?:@prefix\s|@base\s|(?i:prefix|base)\s+[^(]|<)")
+_JSON_START = re.compile(rb"\{|\[\s*[{\]]")
 _XML_START = re.compile(rb"<(\?xml|!|[\w.-]+(:[\w.-]+)?\s)")  # not <http://...>
 
 # A document may not grow by more than this when its entities are expanded ("billion laughs").
@@ -63,14 +70,16 @@ def parse(name: str, data: bytes) -> LocatedGraph:
             raise _error(
                 name,
                 None,
-                f"{language} is not supported; save it as Turtle, RDF/XML, OWL/XML, N-Triples or "
-                "JSON-LD (Protégé and ROBOT can)",
+                f"{language} is not supported; save it as Turtle, RDF/XML, OWL/XML, functional "
+                "syntax, N-Triples or JSON-LD (Protégé and ROBOT can)",
             )
         base = f"file:///{PurePath(name).name.replace(' ', '%20')}"
         if language == "owl/xml":
             _parse_owl_xml(name, data, graph)
         elif language == "json-ld":
             _parse_json_ld(name, data, base, graph)
+        elif language == "functional syntax":
+            _parse_functional(name, data, graph)
         else:
             (parse_turtle if language == "turtle" else parse_rdf_xml)(graph, data, base)
     except OntologySyntaxError:
@@ -115,22 +124,26 @@ def _place(error: Exception) -> tuple[int | None, str]:
 
 
 def _language(name: str, data: bytes) -> str:
-    """The name of the parser to use, from the extension or else from the content."""
-    extension = PurePath(name).suffix.lower()
-    if extension in _BY_EXTENSION:
-        return _BY_EXTENSION[extension]
+    """The name of the parser to use: the extension says it, unless the content says another."""
+    said = _BY_EXTENSION.get(PurePath(name).suffix.lower())
     text = data.lstrip()
-    if _XML_START.match(text):
+    # "<name " might be a broken IRI in Turtle, and "[" begins an anonymous node there.
+    if _XML_START.match(text) and (
+        said is None or text.startswith(b"<?xml") or b"xmlns" in text[:10_000]
+    ):
         return _xml_language(name, data)
-    if text.startswith((b"{", b"[")) and b"@" in text[:100_000]:
-        return "json-ld"
-    if text.startswith((b"Prefix(", b"Ontology(")):
+    if _JSON_START.match(text) or (said is None and text.startswith(b"[")):
+        if said == "json-ld" or b"@" in text[:100_000]:
+            return "json-ld"
+    elif _FUNCTIONAL_START.match(data):
         return "functional syntax"
-    if text.startswith((b"Prefix:", b"Ontology:")):
+    elif _MANCHESTER_START.match(data):
         return "Manchester syntax"
-    if text.startswith(b"format-version:"):
+    elif text.startswith(b"format-version:"):
         return "OBO format"
-    return "turtle"
+    elif _TURTLE_START.match(data):
+        return "turtle"
+    return said or "turtle"
 
 
 def _xml_language(name: str, data: bytes) -> str:
@@ -173,16 +186,35 @@ def _xml_language(name: str, data: bytes) -> str:
     return "owl/xml" if root[0] == OWL_NAMESPACE + "Ontology" else "xml"
 
 
-def _parse_json_ld(name: str, data: bytes, base: str, graph: Graph) -> None:
+def _parse_functional(name: str, data: bytes, graph: LocatedGraph) -> None:
+    from symboslam.reasoning.functional import FunctionalSyntaxError, parse_functional
+
+    try:
+        parse_functional(graph, data)
+    except FunctionalSyntaxError as error:
+        raise _error(name, error.line, error.problem) from error
+
+
+def _parse_json_ld(name: str, data: bytes, base: str, graph: LocatedGraph) -> None:
     from rdflib import BNode, Graph
     from rdflib.plugins.parsers.jsonld import to_rdf
+
+    from symboslam.reasoning.located import json_ld_lines, spread_lines
 
     document = json.loads(data)
     _refuse_remote_contexts(name, document)
     to_rdf(document, read := Graph(), base)
+    subjects = json_ld_lines(data.decode(), document, base)
+    lines = {
+        triple: line
+        for triple in read
+        if (line := subjects.get(("_:" if isinstance(triple[0], BNode) else "") + str(triple[0])))
+    }
+    spread_lines(read, lines, lambda node: f"_:{node}" not in subjects)
     fresh: dict[object, BNode] = {}  # the parser keeps names, which another file may use too
     for triple in read:
         s, p, o = (fresh.setdefault(t, BNode()) if isinstance(t, BNode) else t for t in triple)
+        graph.line = lines.get(triple)
         graph.add((s, p, o))
 
 

@@ -198,12 +198,15 @@ def read_files(paths: Iterable[Path], strict: bool = False) -> Sources:
     return _read(list(paths), {"core.ttl"}, strict)
 
 
-def read_closure(targets: Sequence[str | Path], strict: bool = True) -> Sources:
+def read_closure(
+    targets: Sequence[str | Path], strict: bool = True, follow: bool = True
+) -> Sources:
     """Any ontology: files or bundled documents by their IRI, with all that they import.
 
     Args:
         targets: files, or IRIs such as ``https://w3id.org/symboslam/core``.
         strict: see :func:`read_files`.
+        follow: read the imports too. If not, they are listed as ``missing``.
 
     Raises:
         InputError: a file cannot be read.
@@ -220,10 +223,10 @@ def read_closure(targets: Sequence[str | Path], strict: bool = True) -> Sources:
             modules.add(name)
         else:
             paths.append(Path(target))
-    return _read(paths, modules, strict)
+    return _read(paths, modules, strict, follow)
 
 
-def _read(paths: list[Path], modules: set[str], strict: bool) -> Sources:
+def _read(paths: list[Path], modules: set[str], strict: bool, follow: bool = True) -> Sources:
     from rdflib import OWL, RDF, Graph
 
     from symboslam.reasoning.parsing import parse
@@ -263,6 +266,9 @@ def _read(paths: list[Path], modules: set[str], strict: bool) -> Sources:
             path, beside = wanted[name], None
             if target in declared:
                 found = declared[target]
+            elif not follow:
+                missing.append((target, place))
+                continue
             elif path and (beside := find_in_catalog(path, target)):
                 found = str(beside.resolve())
             elif target.startswith(DOCUMENTS) and bundled_name(target) in bundled:
@@ -276,7 +282,7 @@ def _read(paths: list[Path], modules: set[str], strict: bool) -> Sources:
             imports[name].setdefault(found, place)
             wanted.setdefault(found, beside)
     for target, place in missing:
-        if target not in declared:
+        if target not in declared and follow:
             problem = f"{place}: the import <{target}> was not found beside the file"
             notes.append(Note("missing-import", target, problem))
     if circle := find_circle(imports):
@@ -285,7 +291,7 @@ def _read(paths: list[Path], modules: set[str], strict: bool) -> Sources:
         notes.append(Note("cyclic-import", circle[0][0], problem))
     if strict and notes:
         raise _refusal(notes)
-    read.missing = tuple(sorted({n.subject for n in notes if n.kind == "missing-import"}))
+    read.missing = tuple(sorted({target for target, _ in missing if target not in declared}))
     read.notes = tuple(notes)
     return read
 

@@ -26,6 +26,7 @@ SITE_RADIUS = SL + "siteRadius"
 BANDWIDTH = SL + "bandwidth"
 UPSTREAM_LABEL = SL + "upstreamLabel"
 IN_UPSTREAM_DATA_ONLY = SL + "inUpstreamDataOnly"
+ACCEPTED_PITFALL = SL + "acceptedPitfall"
 
 # Ontology documents: DOCUMENTS + "core" is what an ontology of one's own imports.
 DOCUMENTS = "https://w3id.org/symboslam/"

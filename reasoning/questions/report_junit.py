@@ -24,31 +24,31 @@ def render(report: Report) -> str:
     What failed is a failure, what is broken an error; what is known to fail or needs the reasoner
     is skipped.
     """
-    root = Element("testsuites", _counts(report.results, report.seconds), name=_clean(report.title))
+    root = Element("testsuites", _counts(report.results, report.seconds), name=clean(report.title))
     for group, results in report.groups.items():
         seconds = sum(result.seconds for result in results)
-        suite = SubElement(root, "testsuite", _counts(results, seconds), name=_clean(group))
+        suite = SubElement(root, "testsuite", _counts(results, seconds), name=clean(group))
         for result in results:
             question = result.question
             case = SubElement(
                 suite,
                 "testcase",
-                classname=_clean(group),
-                name=_clean(f"{question.id}: {question.text}"),
+                classname=clean(group),
+                name=clean(f"{question.id}: {question.text}"),
                 time=f"{result.seconds:.3f}",
-                file=_clean(str(question.manifest)),
+                file=clean(str(question.manifest)),
                 line=str(question.line),
             )
-            first = _clean(result.message.partition("\n")[0])
+            first = clean(result.message.partition("\n")[0])
             if result.status in (FAILED, BROKEN):
                 kind = "failure" if result.status == FAILED else "error"
                 told = SubElement(case, kind, message=first, type=result.status)
-                told.text = _clean(result.message)
+                told.text = clean(result.message)
             elif result.status in (KNOWN_FAILING, SKIPPED):
                 known = "known failing: " if result.status == KNOWN_FAILING else ""
                 SubElement(case, "skipped", message=known + first)
             elif result.message:
-                SubElement(case, "system-out").text = _clean(result.message)
+                SubElement(case, "system-out").text = clean(result.message)
     indent(root)
     text = tostring(root, encoding="unicode")
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'
@@ -65,6 +65,6 @@ def _counts(results: Sequence[Result], seconds: float) -> dict[str, str]:
     }
 
 
-def _clean(text: str) -> str:
+def clean(text: str) -> str:
     """Text without the characters that XML cannot hold."""
     return _NOT_XML.sub("\N{REPLACEMENT CHARACTER}", text)

@@ -16,12 +16,12 @@ _ROWS = 20  # of an answer
 
 def render(report: Report) -> str:
     """The report as Markdown."""
-    lines = [f"# {_inline(report.title)}", "", f"{summary(report)}."]
+    lines = [f"# {inline(report.title)}", "", f"{summary(report)}."]
     for group, results in report.groups.items():
-        lines += ["", f"## {_inline(group)}", "", "| | id | question |", "| --- | --- | --- |"]
+        lines += ["", f"## {inline(group)}", "", "| | id | question |", "| --- | --- | --- |"]
         for result in results:
             mark = f"{_MARKS[result.status]} {result.status}"
-            lines.append(f"| {mark} | {result.question.id} | {_inline(result.question.text)} |")
+            lines.append(f"| {mark} | {result.question.id} | {inline(result.question.text)} |")
         for result in results:
             lines += _question(result)
     return "\n".join(lines) + "\n"
@@ -29,7 +29,7 @@ def render(report: Report) -> str:
 
 def _question(result: Result) -> list[str]:
     question = result.question
-    lines = ["", f"### {question.id}: {_inline(question.text)}", ""]
+    lines = ["", f"### {question.id}: {inline(question.text)}", ""]
     lines.append(f"{_MARKS[result.status]} {result.status}, {question.kind}")
     if result.message and (result.status != PASSED or question.known_failing):
         lines += ["", *_block(result.message, "text")]
@@ -51,13 +51,13 @@ def _table(answer: Expected | None, prefixes: Mapping[str, str]) -> list[str]:
         return ["No rows."]
     lines = [f"| {' | '.join(table.columns)} |", "|" + " --- |" * len(table.columns)]
     for row in table.rows[:_ROWS]:
-        lines.append(f"| {' | '.join(_inline(show(term, prefixes)) for term in row)} |")
+        lines.append(f"| {' | '.join(inline(show(term, prefixes)) for term in row)} |")
     if len(table.rows) > _ROWS:
         lines += ["", f"... {len(table.rows)} rows in all"]
     return lines
 
 
-def _inline(text: str) -> str:
+def inline(text: str) -> str:
     """Text that Markdown takes as it is, in one line."""
     return re.sub(r"([\\`*_\[\]<>|#])", r"\\\1", " ".join(text.split()))
 

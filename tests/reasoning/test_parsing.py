@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from rdflib import Graph, Literal, URIRef
+from rdflib import OWL, RDF, BNode, Graph, Literal, URIRef
 from rdflib.compare import isomorphic
 
 from symboslam.errors import OntologySyntaxError
@@ -53,6 +53,30 @@ def test_formats(town: Graph, language: str, name: str) -> None:
     assert isomorphic(parse(name, data), town)
 
 
+@pytest.mark.parametrize("name", ["town.ttl", "town.json", "town.ofn", "town.nt", "town.rdf"])
+@pytest.mark.parametrize("language", ["turtle", "xml", "nt", "json-ld"])
+def test_content_wins_where_it_is_plain(town: Graph, language: str, name: str) -> None:
+    data = town.serialize(format=language, encoding="utf-8")
+    assert isomorphic(parse(name, data), town)
+
+
+@pytest.mark.parametrize("name", ["a.ofn", "a.fss", "a.owl", "a.ttl", "a.json", "a.omn"])
+def test_functional_syntax(name: str) -> None:
+    data = b"# by hand\n\nPrefix(:=<urn:x#>)\nOntology(<urn:x>\nDeclaration(Class(:A)))"
+    graph = parse(name, data)
+    triple = URIRef("urn:x#A"), RDF.type, OWL.Class
+    assert graph.lines[triple] == 5
+
+
+@pytest.mark.parametrize("name", ["a.ttl", "a.n3", "a.owl"])
+def test_turtle_may_begin_with_an_anonymous_node(name: str) -> None:
+    assert len(parse(name, b"[ <urn:p> <urn:o> ] .")) == 1
+
+
+def test_many_comments_take_no_time() -> None:
+    assert not parse("a.owl", b"#\n \n" * 200_000)
+
+
 @pytest.mark.parametrize("language", ["turtle", "xml", "nt", "json-ld"])
 def test_anonymous_nodes_of_two_files_stay_apart(town: Graph, language: str) -> None:
     data = town.serialize(format=language, encoding="utf-8")
@@ -89,7 +113,7 @@ def test_owl_xml(resource: Callable[[str], Path]) -> None:
         ("a.rdf", b"<?xml version='1.0'?>\n", "a.rdf: line 2: no element found"),
         ("a.jsonld", b'{"@id": "urn:a",\n  "b" 1}', "a.jsonld: line 2: "),
         ("a.ttl", b"# fine\n# \xff\n", "a.ttl: line 2: it is not UTF-8"),
-        ("a.owl", b"Prefix(:=<urn:a>)\nOntology()", "functional syntax is not supported; save"),
+        ("a.owl", b"Prefix(:=<urn:a>)\nOntology(", "a.owl: line 2: the file ends in the middle"),
         ("a.owl", b"Prefix: : <urn:a>\nOntology: <urn:b>", "Manchester syntax is not supported"),
         ("a.omn", b"", "Manchester syntax is not supported"),
         ("a.obo", b"format-version: 1.2", "OBO format is not supported"),
@@ -257,3 +281,48 @@ def test_truncated_turtle_has_a_line(end: str) -> None:
     with pytest.raises(OntologySyntaxError, match=r"a\.ttl: line [23]: \w") as caught:
         parse("a.ttl", data)
     assert "index out of range" not in str(caught.value)
+
+
+JSON_LD = b"""{
+  "@context": {"e": "urn:e#", "owl": "http://www.w3.org/2002/07/owl#", "@base": "http://b.org/x",
+    "sub": {"@id": "http://www.w3.org/2000/01/rdf-schema#subClassOf", "@type": "@id"}, "id": "@id"},
+  "@graph": [
+    {"@type": "owl:Class", "sub": [{"@id": "urn:e#B"}, {"@type": "owl:Restriction"}],
+     "@id": "urn:e#A"},
+    {
+      "@id": "urn:e#B", "@type": "owl:Class",
+      "sub": {"@id": "_:b", "@type": "owl:Class"}},
+    {"id": "y", "@type": "owl:Class",
+     "sub": "urn:e#C"}
+  ]
+}"""
+
+
+def test_lines_of_json_ld() -> None:
+    graph = parse("a.jsonld", JSON_LD)
+    lines = {str(s): graph.lines[s, p, o] for s, p, o in graph if isinstance(s, URIRef)}
+    assert lines == {"urn:e#A": 6, "urn:e#B": 8, "http://b.org/y": 10}
+    assert sorted(graph.lines[t] for t in graph if isinstance(t[0], BNode)) == [6, 9]
+
+
+def test_prefixes_of_json_ld() -> None:
+    data = b"""{"@context": {"e": "http://e.org/"}, "@graph": [
+      {"@id": "e:A", "@type": "e:T"},
+      {"@context": {"f": "http://f.org/"}, "@id": "f:A", "@type": "e:T"},
+      {"@context": {"g": "http://g.org/"}, "@id": "g:A", "@type": "e:T"},
+      {"@context": {"g": "http://h.org/"}, "@id": "g:A", "@type": "e:T"}]}"""
+    graph = parse("a.jsonld", data)
+    assert {str(s): graph.lines.get((s, p, o)) for s, p, o in graph} == {
+        "http://e.org/A": 2,
+        "http://f.org/A": 3,
+        "http://g.org/A": None,  # one prefix, two meanings: who knows
+        "http://h.org/A": None,
+    }
+
+
+def test_lines_of_expanded_json_ld(town: Graph) -> None:
+    graph = parse("a.jsonld", town.serialize(format="json-ld", encoding="utf-8"))
+    assert not [t for t in graph if t not in graph.lines]
+    text = town.serialize(format="json-ld").splitlines()
+    for (s, _, _), line in graph.lines.items():
+        assert not isinstance(s, URIRef) or str(s) in text[line - 1]

@@ -1,0 +1,101 @@
+"""Findings that an ontology accepts itself, with a reason.
+
+``sl:acceptedPitfall "P11: any thing may have a name"`` on a term accepts the pitfall wherever the
+term has a part in it; on an axiom (``owl:Axiom``) where that axiom is at fault; on an ontology in
+the whole file that declares it. Without a reason it has no effect.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+
+from rdflib import OWL, RDF, URIRef
+from rdflib.term import Node
+
+from symboslam.reasoning.axioms import Triple
+from symboslam.reasoning.pitfalls.model import Occurrence, Result, Status
+from symboslam.reasoning.pitfalls.ontology import Ontology
+from symboslam.reasoning.vocabulary import ACCEPTED_PITFALL
+
+_VALUE = re.compile(r"\s*(P\d\d)(-\w)?\s*:?\s*(.*)", re.DOTALL)
+
+
+@dataclass(frozen=True)
+class _Acceptance:
+    subject: Node
+    code: str
+    variant: str
+    reason: str
+    axiom: Triple | None
+    where: str
+
+
+class Acceptances:
+    """All that an ontology accepts."""
+
+    def __init__(self, ontology: Ontology) -> None:
+        self._ontology = ontology
+        self._all: list[_Acceptance] = []
+        self._used: set[_Acceptance] = set()
+        self._notes: list[str] = []
+        for subject, values in ontology.statements(URIRef(ACCEPTED_PITFALL)).items():
+            for value in values:
+                place = ontology.place((subject, URIRef(ACCEPTED_PITFALL), value))
+                self._read(subject, str(value), str(place) if place else "")
+
+    def _read(self, subject: Node, value: str, where: str) -> None:
+        found = _VALUE.fullmatch(value)
+        if not found or not found[3].strip():
+            shown = " ".join(value.split())
+            self._notes.append(
+                f'{where}: "{shown}" accepts nothing: write the code and the reason, "P11: ..."'
+            )
+            return
+        code, variant = found[1], found[1] + found[2] if found[2] else ""
+        reason = " ".join(found[3].split())
+        self._all.append(_Acceptance(subject, code, variant, reason, self._axiom(subject), where))
+
+    def _axiom(self, subject: Node) -> Triple | None:
+        if OWL.Axiom not in self._ontology.objects(subject, RDF.type):
+            return None
+        parts = [
+            next(iter(self._ontology.objects(subject, predicate)), None)
+            for predicate in (OWL.annotatedSource, OWL.annotatedProperty, OWL.annotatedTarget)
+        ]
+        s, p, o = parts
+        return (s, p, o) if s is not None and p is not None and o is not None else None
+
+    def apply(self, result: Result) -> Result:
+        """A result whose accepted occurrences carry the reason."""
+        code = result.pitfall.code
+        occurrences = tuple(self._one(code, occurrence) for occurrence in result.occurrences)
+        return replace(result, occurrences=occurrences)
+
+    def _one(self, code: str, occurrence: Occurrence) -> Occurrence:
+        for acceptance in self._all:
+            if acceptance.code == code and self._covers(acceptance, occurrence):
+                self._used.add(acceptance)
+                return replace(occurrence, accepted=acceptance.reason)
+        return occurrence
+
+    def _covers(self, acceptance: _Acceptance, occurrence: Occurrence) -> bool:
+        finding = occurrence.finding
+        if acceptance.variant and acceptance.variant != finding.variant:
+            return False
+        if acceptance.axiom:
+            return acceptance.axiom in finding.axioms
+        ontology = (acceptance.subject, RDF.type, OWL.Ontology)
+        if ontology in self._ontology.graph:
+            files = {d.name for d in self._ontology.documents if ontology in d.graph}
+            return occurrence.place.file in files
+        return str(acceptance.subject) in finding.elements
+
+    def notes(self, results: Iterable[Result]) -> Iterator[str]:
+        """Acceptances without a reason, and such as accept what is not there (any more)."""
+        yield from self._notes
+        checked = {r.pitfall.code for r in results if r.status is Status.CHECKED}
+        for acceptance in self._all:
+            if acceptance not in self._used and acceptance.code in checked:
+                yield f"{acceptance.where}: accepts {acceptance.code}, which is not found there"

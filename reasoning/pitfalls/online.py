@@ -1,0 +1,177 @@
+"""Ask the Web for an ontology or a term; only rules under ``Settings.online`` may do so."""
+
+from __future__ import annotations
+
+import re
+import socket
+import time
+from dataclasses import dataclass
+from http.client import HTTPException
+from typing import TYPE_CHECKING, Any
+from urllib.error import HTTPError, URLError
+from urllib.parse import quote
+from urllib.request import (
+    HTTPDefaultErrorHandler,
+    HTTPErrorProcessor,
+    HTTPHandler,
+    HTTPRedirectHandler,
+    HTTPSHandler,
+    OpenerDirector,
+    ProxyHandler,
+    Request,
+)
+
+from symboslam.errors import OntologySyntaxError
+from symboslam.reasoning.pitfalls.model import NotCheckedError, Settings
+
+if TYPE_CHECKING:
+    from rdflib import Graph
+
+RDF = (
+    "text/turtle, application/rdf+xml, application/n-triples;q=0.9, application/ld+json;q=0.8, "
+    "application/xml;q=0.5, text/plain;q=0.3, */*;q=0.1"
+)
+"""What to accept where data are wanted."""
+HTML = "text/html, application/xhtml+xml, */*;q=0.1"
+"""What to accept where a page is wanted."""
+
+SECONDS = 10.0
+"""Time limit of a request."""
+BYTES = 20_000_000
+"""Size limit of an answer."""
+
+_BLOCK = 65536
+_TEMPORARY = (401, 403, 407, 408, 423, 425, 429)
+_EXTENSIONS = {
+    "text/turtle": ".ttl",
+    "application/x-turtle": ".ttl",
+    "text/n3": ".n3",
+    "application/n-triples": ".nt",
+    "application/ld+json": ".jsonld",
+    "application/rdf+xml": ".rdf",
+}
+_HTML = re.compile(rb"<!doctype\s+html|<html[\s>]", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a server said.
+
+    Attributes:
+        iri: that was asked for.
+        media_type: of the content, such as ``text/turtle``.
+        content: None if there was none.
+        problem: why there was none.
+        final: the problem will not go away by itself: no such page, no such host.
+    """
+
+    iri: str
+    media_type: str = ""
+    content: bytes | None = None
+    problem: str = ""
+    final: bool = False
+
+    @property
+    def is_page(self) -> bool:
+        """Whether it is HTML."""
+        return self.content is not None and bool(_HTML.search(self.content[:4096]))
+
+    def graph(self) -> Graph | None:
+        """The statements in it; None if it is no RDF."""
+        from rdflib import Graph, URIRef
+
+        from symboslam.reasoning.parsing import parse
+
+        if self.content is None or self.is_page:
+            return None
+        name = "answer" + _EXTENSIONS.get(self.media_type, "")
+        try:
+            read = parse(name, self.content)
+        except OntologySyntaxError:
+            return None
+        ours, theirs = f"file:///{name}", str(self.iri).partition("#")[0]
+        graph = Graph()
+        for triple in read:
+            s, p, o = (
+                URIRef(theirs + term.removeprefix(ours))
+                if isinstance(term, URIRef) and term.startswith(ours)
+                else term
+                for term in triple
+            )
+            graph.add((s, p, o))
+        return graph
+
+
+def require(settings: Settings) -> None:
+    """Refuse to go on if the network may not be asked.
+
+    Raises:
+        NotCheckedError: it may not.
+    """
+    if not settings.online:
+        raise NotCheckedError("needs the network: --online")
+
+
+def fetch(iri: str, accept: str) -> Answer:
+    """What is at an IRI; whatever goes wrong is in the answer.
+
+    Args:
+        iri: to be looked up; its fragment is left out.
+        accept: the media types that are wanted.
+    """
+    address = str(iri).partition("#")[0]
+    if not address.startswith(("http://", "https://")):
+        return Answer(iri, problem="it is no address of the Web", final=True)
+    headers = {"Accept": accept, "User-Agent": "symboslam-pitfalls"}
+    request = Request(quote(address, safe="%/:=&?~#+!$,;'@()*[]"), headers=headers)
+    until = time.monotonic() + SECONDS
+    try:
+        with _opener().open(request, timeout=SECONDS) as response:
+            media_type = response.headers.get_content_type()
+            content = bytearray()
+            while block := response.read(_BLOCK):
+                content += block
+                if len(content) > BYTES:
+                    return Answer(iri, problem=f"it is larger than {BYTES // 1_000_000} MB")
+                if time.monotonic() > until:
+                    return Answer(iri, problem=f"no full answer within {SECONDS:g} s")
+            return Answer(iri, media_type, bytes(content))
+    except HTTPError as error:
+        error.close()
+        final = error.code < 500 and error.code not in _TEMPORARY
+        return Answer(iri, problem=f"{error.code} {error.reason}".strip(), final=final)
+    except URLError as error:
+        return _failure(iri, error.reason)
+    except (OSError, HTTPException, ValueError) as error:
+        return _failure(iri, error)
+
+
+def _failure(iri: str, reason: Any) -> Answer:
+    """No answer at all; final if the host is not known or refuses to speak."""
+    if isinstance(reason, TimeoutError):
+        return Answer(iri, problem=f"no answer within {SECONDS:g} s")
+    unknown = isinstance(reason, socket.gaierror) and reason.errno == socket.EAI_NONAME
+    text = str(getattr(reason, "strerror", None) or reason or type(reason).__name__)
+    return Answer(iri, problem=text, final=unknown or isinstance(reason, ConnectionRefusedError))
+
+
+class _Redirects(HTTPRedirectHandler):
+    """Follows redirections within the Web only."""
+
+    def redirect_request(
+        self, req: Request, fp: Any, code: int, msg: str, headers: Any, newurl: str
+    ) -> Request | None:
+        if not newurl.startswith(("http://", "https://")):
+            raise HTTPError(req.full_url, code, f"leads to {newurl}", headers, fp)
+        return super().redirect_request(req, fp, code, msg, headers, newurl)
+
+
+def _opener() -> OpenerDirector:
+    """Opens ``http`` and ``https`` only."""
+    opener = OpenerDirector()
+    for handler in (
+        ProxyHandler(), HTTPHandler(), HTTPSHandler(), HTTPDefaultErrorHandler(), _Redirects(),
+        HTTPErrorProcessor(),
+    ):  # fmt: skip
+        opener.add_handler(handler)
+    return opener

@@ -1,0 +1,83 @@
+"""Where terms stand in the statements of the language: as a class, as a property."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Set
+
+from rdflib import OWL, RDF, BNode, URIRef
+from rdflib.term import Node
+
+from symboslam.reasoning.axioms import Triple
+from symboslam.reasoning.pitfalls.ontology import Ontology, is_builtin
+
+SUBJECT, OBJECT, LIST = 1, 2, 4
+"""Positions in a statement, to be added up; ``LIST`` is the items of the list in its object."""
+
+
+def first_uses(
+    ontology: Ontology,
+    positions: Mapping[URIRef, int],
+    block: URIRef | None = None,
+    declared: Set[Node] = frozenset(),
+) -> dict[URIRef, Triple]:
+    """Term -> the first statement that has it in one of the positions; built-in terms left out.
+
+    Args:
+        ontology: where to look.
+        positions: predicate -> which of its positions count.
+        block: a kind of statement about a whole list (``owl:AllDisjointClasses``) that counts too.
+        declared: kinds; terms that are declared as one of them are left out.
+    """
+    done = {term for term, kinds in ontology.kinds.items() if kinds & declared}
+    found: dict[URIRef, tuple[tuple[bool, str, int, str], Triple]] = {}
+    for term, triple in _uses(ontology, positions, block):
+        if isinstance(term, URIRef) and term not in done and not is_builtin(term):
+            rank = by_place(ontology, triple)
+            if term not in found or rank < found[term][0]:
+                found[term] = (rank, triple)
+    return {term: triple for term, (_, triple) in found.items()}
+
+
+def _uses(
+    ontology: Ontology, positions: Mapping[URIRef, int], block: URIRef | None
+) -> Iterator[tuple[Node, Triple]]:
+    for predicate, which in positions.items():
+        for s, objects in ontology.statements(predicate).items():
+            for o in objects:
+                triple = (s, predicate, o)
+                if which & SUBJECT:
+                    yield s, triple
+                if which & OBJECT:
+                    yield o, triple
+                if which & LIST:
+                    yield from _items(ontology, o, triple)
+    if block:
+        for s, objects in ontology.statements(OWL.members).items():
+            if block in ontology.kinds.get(s, ()):
+                for o in objects:
+                    yield from _items(ontology, o, (s, RDF.type, block))
+
+
+def _items(ontology: Ontology, node: Node, triple: Triple) -> Iterable[tuple[Node, Triple]]:
+    return ((item, triple) for item in ontology.members(node))
+
+
+def by_place(ontology: Ontology, triple: Triple) -> tuple[bool, str, int, str]:
+    """Sort key: given files first, then by line; names decide where lines are not known."""
+    place = ontology.place(triple)
+    names = " ".join(str(term) for term in triple if isinstance(term, URIRef))
+    if place is None:
+        return True, "", 0, names
+    return place.file not in ontology.given, place.file, place.line or 0, names
+
+
+def whole(ontology: Ontology, triple: Triple) -> Triple:
+    """The axiom that a triple inside of an anonymous expression is part of; else the triple."""
+    seen = {triple}
+    while isinstance(triple[0], BNode):
+        holders = [t for t in ontology.graph.triples((None, None, triple[0])) if t not in seen]
+        if not holders:
+            break
+        triple = min(holders, key=lambda t: by_place(ontology, t))
+        seen.add(triple)
+    return triple
