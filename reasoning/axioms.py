@@ -167,7 +167,8 @@ class Words:
 
     def members(self, node: Node | None) -> list[Node]:
         """The items of an RDF list; a list that leads back to itself ends there."""
-        found, seen = [], {None}
+        found: list[Node] = []
+        seen: set[Node | None] = {None}
         while node not in seen and (node, RDF.first, None) in self.graph:
             seen.add(node)
             found += [item for item in [self.graph.value(node, RDF.first)] if item is not None]

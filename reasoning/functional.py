@@ -355,8 +355,8 @@ class _Mapping:
             s, o = self._terms(form, letters)
             return [(s, predicate, o)]
         if name in _CHARACTERISTICS:
-            letters, kind = _CHARACTERISTICS[name]
-            return [(s, RDF.type, kind) for s in self._terms(form, letters)]
+            letters, characteristic = _CHARACTERISTICS[name]
+            return [(s, RDF.type, characteristic) for s in self._terms(form, letters)]
         if name in _ALIKE:
             letters, predicate = _ALIKE[name]
             found = self._terms(form, letters, several=2)

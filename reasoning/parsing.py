@@ -40,7 +40,7 @@ _RDF_XML_ERROR = re.compile(r"[^\s]*?:(\d+):\d+: (.*)", re.DOTALL)  # base:line:
 _SPACE = rb"(?:\s|#[^\n]*(?:\n|\Z))*+"  # comments too
 _FUNCTIONAL_START = re.compile(_SPACE + rb"(?:Prefix|Ontology)\s*\(")
 _MANCHESTER_START = re.compile(_SPACE + rb"(?:Prefix|Ontology):")
-_TURTLE_START = re.compile(_SPACE + rb"(?:@prefix\s|@base\s|(?i:prefix|base)\s+[^(]|<)")
+_TURTLE_START = re.compile(_SPACE + rb"(?:@prefix\s|@base\s|(?i:prefix|base)\s+[^(]|<|_:)")
 _JSON_START = re.compile(rb"\{|\[\s*[{\]]")
 _XML_START = re.compile(rb"<(\?xml|!|[\w.-]+(:[\w.-]+)?\s)")  # not <http://...>
 

@@ -18,7 +18,7 @@ from pathlib import Path
 import symboslam
 from symboslam.reasoning.pitfalls.model import Report, Result, Severity, Status
 from symboslam.reasoning.pitfalls.report import render
-from symboslam.reasoning.pitfalls.scan import scan
+from symboslam.reasoning.pitfalls.scan import scan_pitfalls
 from symboslam.reasoning.sources import closure_files
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -55,8 +55,8 @@ def scan_all() -> dict[str, Report]:
     """Name -> report of each module, and of all modules as one ontology."""
     os.chdir(ROOT)  # places in reports are relative to the repository
     names = list(closure_files())
-    modules = {name.removesuffix(".ttl"): scan([f"ontology/{name}"]) for name in names}
-    return {**modules, WHOLE: scan([f"ontology/{name}" for name in names])}
+    modules = {name.removesuffix(".ttl"): scan_pitfalls([f"ontology/{name}"]) for name in names}
+    return {**modules, WHOLE: scan_pitfalls([f"ontology/{name}" for name in names])}
 
 
 def write(reports: Mapping[str, Report], out: Path) -> None:
@@ -103,7 +103,7 @@ def counts(report: Report) -> tuple[int, ...]:
 def upstream_page(folder: Path, ours: Report) -> str:
     """Counts for each code in the published ontologies and in ours, as a page."""
     os.chdir(folder)
-    scans = {name: scan([name], follow=False) for name in UPSTREAM}
+    scans = {name: scan_pitfalls([name], follow=False) for name in UPSTREAM}
     columns = {**scans, "our closure": ours}
     rows = []
     for at, result in enumerate(ours.results):

@@ -76,17 +76,3 @@ def requires(ontology: Ontology, restriction: Node) -> bool:
         for p in _AT_LEAST
         for n in ontology.objects(restriction, p)
     )
-
-
-def above(ontology: Ontology, cls: URIRef) -> list[URIRef]:
-    """A class, the named classes that it is stated to be below, and their equivalents."""
-    found, waiting = [cls], [cls]
-    seen = {cls}
-    while waiting:
-        for condition in conditions(ontology, waiting.pop()):
-            node = condition.node
-            if isinstance(node, URIRef) and node not in seen:
-                seen.add(node)
-                found.append(node)
-                waiting.append(node)
-    return found

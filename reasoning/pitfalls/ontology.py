@@ -237,6 +237,11 @@ class Ontology:
         """Where a triple is stated."""
         return self.sources.places.get(triple)
 
+    def is_given(self, triple: Triple) -> bool:
+        """Whether a triple is stated in a file that the user gave."""
+        place = self.place(triple)
+        return place is not None and place.file in self.given
+
     def declaration(self, term: Node) -> Triple | None:
         """The triple that declares a term: its type, else the first that is said of it."""
         types = [(term, RDF.type, kind) for kind in self.objects(term, RDF.type)]

@@ -36,7 +36,7 @@ class _OutOfTime(BaseException):
     """The time limit was reached; no ``except Exception`` on the way may keep it."""
 
 
-def scan(
+def scan_pitfalls(
     targets: Sequence[str | Path] = (),
     settings: Settings | None = None,
     codes: Sequence[str] = CODES,

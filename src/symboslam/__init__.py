@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from symboslam.engine.writers import write_map
     from symboslam.errors import SymboSlamError
     from symboslam.reasoning.knowledge import Knowledge
+    from symboslam.reasoning.pitfalls.scan import scan_pitfalls
     from symboslam.reasoning.why import why
 
 __version__ = "0.1.0"
@@ -34,6 +35,7 @@ _HOME = {
     "SymboSlamError": "symboslam.errors",
     "classify": "symboslam.engine.classify",
     "read_landmarks": "symboslam.engine.readers",
+    "scan_pitfalls": "symboslam.reasoning.pitfalls.scan",
     "why": "symboslam.reasoning.why",
     "write_map": "symboslam.engine.writers",
 }
@@ -47,6 +49,7 @@ __all__ = [
     "SymboSlamError",
     "classify",
     "read_landmarks",
+    "scan_pitfalls",
     "why",
     "write_map",
 ]

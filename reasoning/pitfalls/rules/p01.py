@@ -12,16 +12,8 @@ PITFALL = Pitfall(
     code="P01",
     title="Creating polysemous elements",
     severity=Severity.CRITICAL,
-    affects=(
-        "class",
-        "object property",
-        "datatype property",
-    ),
-    categories=(
-        "N1",
-        "N7",
-        "S4",
-    ),
+    affects=("class", "object property", "datatype property"),
+    categories=("N1", "N7", "S4"),
     description="One element stands for several things that its name means in different settings, "
     "such as a theatre as a building and as an art.",
     remedy="Give each of the meanings an element of its own, with a name that tells it from the "

@@ -37,12 +37,13 @@ Above = Mapping[URIRef, Sequence[URIRef]]
 def check(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
     """Sets of classes that are all below one another, by asserted named superclasses.
 
-    One finding a set. The axioms are those of a shortest cycle through the first of its classes.
+    One finding a set. The axioms are those of a shortest cycle, which goes through a statement of
+    a given file if there is one.
     A class stated to be below itself says nothing and is no cycle (P24 has it).
     """
     above = _above(ontology)
     for component in sorted(_components(above)):
-        cycle = _shortest(above, component)
+        cycle = _shortest(above, component, _given(ontology, above, component))
         names = [local_name(c) for c in [*cycle, cycle[0]]]
         if len(names) > _SHOWN:
             names = [*names[: _SHOWN - 2], f"{len(names) - _SHOWN + 1} more", names[-1]]
@@ -101,21 +102,31 @@ def _components(above: Above) -> Iterator[list[URIRef]]:
                 low[node] = min(low[node], index[other])
 
 
-def _shortest(above: Above, component: Sequence[URIRef]) -> list[URIRef]:
-    """A shortest way up from the first class of a component back to it."""
-    first, members = component[0], {*component}
+def _given(ontology: Ontology, above: Above, component: Sequence[URIRef]) -> list[URIRef]:
+    """Where a cycle begins: with a statement of a given file, else with the first class."""
+    members = {*component}
+    for one in component:
+        for other in above.get(one, ()):
+            if other in members and ontology.is_given((one, RDFS.subClassOf, other)):
+                return [one, other]
+    return [component[0]]
+
+
+def _shortest(above: Above, component: Sequence[URIRef], start: Sequence[URIRef]) -> list[URIRef]:
+    """A shortest way up from the end of ``start`` to where ``start`` begins."""
+    members = {*component}
     came: dict[URIRef, URIRef] = {}
-    waiting = deque([first])
-    while first not in came:
+    waiting = deque([start[-1]])
+    while start[0] not in came and waiting:
         node = waiting.popleft()
         for other in above.get(node, ()):
             if other in members and other not in came:
                 came[other] = node
                 waiting.append(other)
-    cycle = [came[first]]
-    while cycle[-1] != first:
+    cycle = [came[start[0]]]
+    while cycle[-1] != start[-1]:
         cycle.append(came[cycle[-1]])
-    return cycle[::-1]
+    return [*start[:-1], *cycle[::-1]]
 
 
 def check_as_oops(ontology: Ontology, settings: Settings) -> Iterator[Finding]:

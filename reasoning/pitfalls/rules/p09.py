@@ -28,10 +28,7 @@ PITFALL = Pitfall(
     title="Missing domain information",
     severity=Severity.MINOR,
     affects=("ontology",),
-    categories=(
-        "N5",
-        "S5",
-    ),
+    categories=("N5", "S5"),
     description="The ontology has no words for a part of what it has to answer, according to its "
     "requirements.",
     remedy="Add the term, or mend the question that uses it.",

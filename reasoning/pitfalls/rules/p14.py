@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping
 
 from rdflib import OWL, URIRef
 from rdflib.term import Node
 
-from symboslam.reasoning.pitfalls.conditions import above, conditions, left_to_people, requires
+from symboslam.reasoning.pitfalls.conditions import conditions, left_to_people, requires
 from symboslam.reasoning.pitfalls.model import Finding, Pitfall, Settings, Severity
 from symboslam.reasoning.pitfalls.ontology import Ontology, is_builtin
 from symboslam.reasoning.vocabulary import local_name
@@ -17,11 +18,9 @@ PITFALL = Pitfall(
     title='Misusing "owl:allValuesFrom"',
     severity=Severity.CRITICAL,
     affects=("class",),
-    categories=(
-        "N2",
-        "S4",
-    ),
-    description="A class is said to have values of one kind only on a property, and nowhere that it "
+    categories=("N2", "S4"),
+    description="A class is said to have values of one kind only on a property, and nowhere "
+    "that it "
     "has any: what has no value at all fits too.",
     remedy="Add that there is a value (owl:someValuesFrom or a cardinality of at least 1), if "
     "that is meant.",
@@ -37,30 +36,61 @@ def check(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
     """
     if not ontology.statements(OWL.allValuesFrom):
         return
-    for cls in ontology.classes:
-        found = {
-            on: (c.node, c.axiom)
-            for c in conditions(ontology, cls)
-            for on in ontology.objects(c.node, OWL.onProperty)
+    stated = {cls: list(conditions(ontology, cls)) for cls in ontology.classes}
+    below: dict[Node, list[URIRef]] = defaultdict(list)
+    requiring: dict[Node, set[Node]] = defaultdict(set)
+    for cls, found in stated.items():
+        for c in found:
+            below[c.node].append(cls)
+            if requires(ontology, c.node):
+                for on in _with_above(ontology, ontology.objects(c.node, OWL.onProperty)):
+                    requiring[on].add(cls)
+    unknown = {n for n in below if isinstance(n, URIRef) and n not in ontology.kinds}
+    left_alone = _all_below(below, {n for n in unknown if not is_builtin(n)})
+    fine: dict[Node, set[Node]] = {}
+    for cls, found in stated.items():
+        if cls in left_alone or ontology.deprecated(cls):
+            continue
+        limited = {
+            on: c
+            for c in found
             if any(_limits(ontology, filler) for filler in _fillers(ontology, c.node))
-            and OWL.DatatypeProperty not in ontology.kinds.get(on, ())
+            for on in ontology.objects(c.node, OWL.onProperty)
+            if isinstance(on, URIRef) and OWL.DatatypeProperty not in ontology.kinds.get(on, ())
         }
-        if not found or ontology.deprecated(cls):
-            continue
-        classes = above(ontology, cls)
-        if any(c not in ontology.kinds and not is_builtin(c) for c in classes):
-            continue
-        required = _required(ontology, classes)
-        for on in sorted(found.keys() - required, key=str):
-            node, axiom = found[on]
-            if isinstance(on, URIRef):
+        for on, c in sorted(limited.items()):
+            if on not in fine:
+                fine[on] = _all_below(below, requiring[on])
+            if cls not in fine[on]:
                 yield Finding(
                     (cls,),
                     f"what has no {local_name(on)} at all fits "
-                    f'"{ontology.words.expression(node)}" too',
-                    (axiom,),
+                    f'"{ontology.words.expression(c.node)}" too',
+                    (c.axiom,),
                     f"Add that {local_name(cls)} has some {local_name(on)}, if that is meant.",
                 )
+
+
+def _all_below(below: Mapping[Node, list[URIRef]], classes: set[Node]) -> set[Node]:
+    """The classes and all that is below them."""
+    seen, waiting = set(classes), list(classes)
+    while waiting:
+        fresh = [c for c in below.get(waiting.pop(), ()) if c not in seen]
+        seen.update(fresh)
+        waiting += fresh
+    return seen
+
+
+def _with_above(ontology: Ontology, props: Iterable[Node]) -> set[Node]:
+    """Properties, and those that they are below."""
+    found: set[Node] = set()
+    waiting = list(props)
+    while waiting:
+        prop = waiting.pop()
+        if prop not in found:
+            found.add(prop)
+            waiting += ontology.superproperties.get(prop, ()) if isinstance(prop, URIRef) else ()
+    return found
 
 
 def _fillers(ontology: Ontology, node: Node) -> tuple[Node, ...]:
@@ -73,24 +103,6 @@ def _limits(ontology: Ontology, filler: Node) -> bool:
         ontology.objects(filler, OWL.complementOf)
         or ontology.objects(filler, OWL.datatypeComplementOf)
     )
-
-
-def _required(ontology: Ontology, classes: list[URIRef]) -> set[Node]:
-    """The properties of which the classes, or properties above, have to have a value."""
-    found: set[Node] = set()
-    waiting = [
-        on
-        for cls in classes
-        for c in conditions(ontology, cls)
-        if requires(ontology, c.node)
-        for on in ontology.objects(c.node, OWL.onProperty)
-    ]
-    while waiting:
-        prop = waiting.pop()
-        if prop not in found:
-            found.add(prop)
-            waiting += ontology.superproperties.get(prop, ()) if isinstance(prop, URIRef) else ()
-    return found
 
 
 def check_as_oops(ontology: Ontology, settings: Settings) -> Iterator[Finding]:

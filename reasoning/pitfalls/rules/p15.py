@@ -16,10 +16,7 @@ PITFALL = Pitfall(
     title='Using "some not" in place of "not some"',
     severity=Severity.CRITICAL,
     affects=("class",),
-    categories=(
-        "N2",
-        "S4",
-    ),
+    categories=("N2", "S4"),
     description="A class is said to have some value that is not of a kind, which leaves room for "
     "values that are. If none of that kind is meant, the negation belongs outside.",
     remedy='Write "not (property some Kind)" if no value of that kind is allowed.',

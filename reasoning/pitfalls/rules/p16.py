@@ -15,11 +15,9 @@ PITFALL = Pitfall(
     title="Using a primitive class in place of a defined one",
     severity=Severity.CRITICAL,
     affects=("class",),
-    categories=(
-        "N3",
-        "S5",
-    ),
-    description="A class is only said to have what would define it, so that a reasoner puts nothing "
+    categories=("N3", "S5"),
+    description="A class is only said to have what would define it, so that a reasoner puts "
+    "nothing "
     "into it. Being in the class implies the conditions, but meeting them does not put "
     "anything in the class.",
     remedy="State the class to be equivalent (owl:equivalentClass) to the conditions, if "

@@ -19,11 +19,9 @@ PITFALL = Pitfall(
     title="Overspecializing a hierarchy",
     severity=Severity.IMPORTANT,
     affects=("class",),
-    categories=(
-        "N1",
-        "S4",
-    ),
-    description="A hierarchy goes on below its last kinds: a class at its end stands for one thing, "
+    categories=("N1", "S4"),
+    description="A hierarchy goes on below its last kinds: a class at its end stands for one "
+    "thing, "
     "as if a city such as Madrid were a kind of city.",
     remedy="Make the class an individual of the class above it.",
     advisory=True,

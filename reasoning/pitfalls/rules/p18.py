@@ -17,15 +17,10 @@ PITFALL = Pitfall(
     code="P18",
     title="Overspecializing the domain or range",
     severity=Severity.IMPORTANT,
-    affects=(
-        "object property",
-        "datatype property",
-    ),
-    categories=(
-        "N2",
-        "S4",
-    ),
-    description="A domain or range lists what there is today, or a single individual, in place of the "
+    affects=("object property", "datatype property"),
+    categories=("N2", "S4"),
+    description="A domain or range lists what there is today, or a single individual, in "
+    "place of the "
     "class that holds them; it has to be mended with each new class.",
     remedy="State the class above as the domain or range.",
     advisory=True,

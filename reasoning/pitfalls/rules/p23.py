@@ -18,10 +18,7 @@ PITFALL = Pitfall(
     title="Duplicating a datatype already provided by the implementation language",
     severity=Severity.IMPORTANT,
     affects=("class",),
-    categories=(
-        "N1",
-        "S6",
-    ),
+    categories=("N1", "S6"),
     description="A class stands for numbers, texts, dates or the like, for which the language has "
     "datatypes. Its individuals have no value that anything could compare.",
     remedy="Use a datatype property with the datatype (xsd:integer, xsd:string, xsd:date ...) in "

@@ -174,7 +174,7 @@ def pitfalls(
     from symboslam.reasoning.pitfalls.model import Settings
     from symboslam.reasoning.pitfalls.registry import choose
     from symboslam.reasoning.pitfalls.report import FORMATS, render, summary
-    from symboslam.reasoning.pitfalls.scan import scan
+    from symboslam.reasoning.pitfalls.scan import scan_pitfalls
 
     if listed:
         _list()
@@ -196,7 +196,7 @@ def pitfalls(
         seconds=seconds,
     )
     with progress_bar() as progress:
-        report = scan(
+        report = scan_pitfalls(
             files or (),
             settings,
             codes,

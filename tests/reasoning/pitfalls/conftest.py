@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import runpy
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import pytest
 
 from symboslam.reasoning.pitfalls.model import Report, Result, Settings
-from symboslam.reasoning.pitfalls.scan import scan
+from symboslam.reasoning.pitfalls.scan import scan_pitfalls
 
 CASES = Path(__file__).parent / "cases"
 
@@ -79,9 +80,9 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
 
 
 @pytest.fixture(scope="session")
-def all_cases() -> list[Case]:
-    """All cases."""
-    return cases()
+def all_cases() -> Callable[[], list[Case]]:
+    """All cases, read once."""
+    return cache(cases)
 
 
 @pytest.fixture
@@ -91,7 +92,7 @@ def scan_text(tmp_path: Path) -> Scan:
     def call(body: str, settings: Settings | None = None, **options: Any) -> Report:
         path = tmp_path / "ontology.ttl"
         path.write_text(PREFIXES + body, encoding="utf-8")
-        return scan([path], settings, **options)
+        return scan_pitfalls([path], settings, **options)
 
     return call
 

@@ -11,11 +11,11 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from symboslam.reasoning.pitfalls.model import Result, Status
+from symboslam.reasoning.pitfalls.model import Occurrence, Result, Status
 from symboslam.reasoning.pitfalls.registry import CODES
 
 ELSEWHERE = {
-    "P01": "left to people",
+    "P01": "left to people, never checked",
     "P09": "needs a manifest: test_p09.py",
     "P37": "needs a server: test_online.py",
     "P38": "needs a file without the head of the cases: test_documents.py",
@@ -44,8 +44,8 @@ def test_found(case: Any, scan_text: Any, affected: Callable[[Result], frozenset
         assert not occurrence.finding.message.endswith(".")
 
 
-def test_two_cases_each(all_cases: list[Any]) -> None:
-    ours = [case for case in all_cases if not case.settings.strict_oops]
+def test_two_cases_each(all_cases: Callable[[], list[Any]]) -> None:
+    ours = [case for case in all_cases() if not case.settings.strict_oops]
     positive = Counter(case.code for case in ours if case.affected)
     negative = Counter(case.code for case in ours if not case.affected)
     here = [code for code in CODES if code not in ELSEWHERE]
@@ -54,11 +54,11 @@ def test_two_cases_each(all_cases: list[Any]) -> None:
 
 
 @settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(data=st.data(), name=st.from_regex(r"Zq[a-z]{4,9}", fullmatch=True))
+@given(at=st.integers(0, 9999), name=st.text("abcdefghijklmnop", min_size=4, max_size=9))
 def test_an_unrelated_class_changes_no_other_finding(
-    all_cases: list[Any], scan_text: Any, data: st.DataObject, name: str
+    all_cases: Callable[[], list[Any]], scan_text: Any, at: int, name: str
 ) -> None:
-    case = data.draw(st.sampled_from(all_cases))
+    case, name = all_cases()[at % len(all_cases())], f"Zq{name}"
     new = f"https://example.org/o#{name}"
     unrelated = f'\n<{new}> a owl:Class ; rdfs:label "{name}"@en ; rdfs:comment "One {name}."@en .'
     before = scan_text(case.body, replace(case.settings, online=False))
@@ -67,6 +67,9 @@ def test_an_unrelated_class_changes_no_other_finding(
         assert one.status is two.status
         if one.pitfall.code not in WHOLE:
             others = [o for o in two.occurrences if new not in o.finding.elements]
-            assert [(o.finding, o.place) for o in others] == [
-                (o.finding, o.place) for o in one.occurrences
-            ]
+            assert [told(o) for o in others] == [told(o) for o in one.occurrences]
+
+
+def told(o: Occurrence) -> tuple[Any, ...]:
+    """What a reader is told; anonymous nodes have other names each time."""
+    return o.finding.elements, o.finding.message, o.finding.mend, o.axiom, o.place

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from symboslam.reasoning.pitfalls.model import Result, Settings, Status
-from symboslam.reasoning.pitfalls.scan import scan
+from symboslam.reasoning.pitfalls.scan import scan_pitfalls
 
 RDF_XML = """<?xml version="1.0"?>
 <rdf:RDF xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#"
@@ -36,7 +36,7 @@ def check(tmp_path: Path) -> Check:
         for name, text in files.items():
             (tmp_path / name).write_text(text, encoding="utf-8")
         paths = [tmp_path / name for name in files]
-        report = scan(paths, settings, codes=[code], strict_imports=False)
+        report = scan_pitfalls(paths, settings, codes=[code], strict_imports=False)
         return next(r for r in report.results if r.pitfall.code == code)
 
     return call
@@ -153,7 +153,7 @@ def test_relative_names_are_listed(check: Check) -> None:
 
 
 def test_bundled_modules_have_no_text() -> None:
-    report = scan(["https://w3id.org/symboslam/core"], STRICT, codes=["P38", "P39"])
+    report = scan_pitfalls(["https://w3id.org/symboslam/core"], STRICT, codes=["P38", "P39"])
     for result in report.results:
         if result.pitfall.code in ("P38", "P39"):
             assert result.status is Status.NOT_CHECKED

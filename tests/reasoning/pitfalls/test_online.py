@@ -14,7 +14,7 @@ import pytest
 from symboslam.reasoning.pitfalls import online
 from symboslam.reasoning.pitfalls.model import Result, Settings, Status
 from symboslam.reasoning.pitfalls.rules import p40
-from symboslam.reasoning.pitfalls.scan import scan
+from symboslam.reasoning.pitfalls.scan import scan_pitfalls
 
 OWL = "@prefix owl: <http://www.w3.org/2002/07/owl#> .\n"
 TURTLE = OWL + "<#A> a owl:Class ."
@@ -87,7 +87,7 @@ def check(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Check:
         path = tmp_path / "o.ttl"
         path.write_text(OWL + text, encoding="utf-8")
         given = Settings(**{"online": True, **settings})
-        report = scan([path], given, codes=[code], strict_imports=False)
+        report = scan_pitfalls([path], given, codes=[code], strict_imports=False)
         return next(r for r in report.results if r.pitfall.code == code)
 
     return call
@@ -324,6 +324,6 @@ def test_no_rule_asks_the_network(
         "<https://example.org/o#A> a owl:Class . <https://far.example/f#B> a owl:Class . "
         "<https://example.org/o#p> a owl:ObjectProperty ."
     )
-    report = scan([path], Settings(strict_oops=strict), strict_imports=False)
+    report = scan_pitfalls([path], Settings(strict_oops=strict), strict_imports=False)
     assert len(report.results) == 41
     assert asked == []

@@ -14,7 +14,7 @@ from rdflib import RDF, Graph, Namespace, URIRef
 
 from symboslam.reasoning.pitfalls.model import Settings, Status
 from symboslam.reasoning.pitfalls.report import render
-from symboslam.reasoning.pitfalls.scan import scan
+from symboslam.reasoning.pitfalls.scan import scan_pitfalls
 
 SHARED = Path(os.environ.get("SYMBOSLAM_SHARED", Path(__file__).parents[4] / "shared"))
 CASES = SHARED / "data" / "oops-cases"
@@ -68,7 +68,7 @@ def test_as_oops(name: str) -> None:
     if not CASES.is_dir():
         pytest.skip("the cases of OOPS! are not there: ../shared/data/oops-cases")
     expected = answers(Graph().parse(CASES / "expected" / f"{name}.ttl", format="turtle"))
-    report = scan([CASES / "input" / f"{name}.owl"], Settings(strict_oops=True))
+    report = scan_pitfalls([CASES / "input" / f"{name}.owl"], Settings(strict_oops=True))
     assert [(r.pitfall.code, r.reason) for r in report.results if r.status is Status.ERRORED] == []
     unread = tuple(r.pitfall.code for r in report.results if "WordNet" in r.reason)
     found = answers(Graph().parse(data=render(report, "oops-rdf"), format="xml"))

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from symboslam.reasoning.pitfalls.model import Result, Settings, Status
-from symboslam.reasoning.pitfalls.scan import scan
+from symboslam.reasoning.pitfalls.scan import scan_pitfalls
 
 RESOURCES = Path(__file__).parent / "resources"
 MANIFEST = Path(__file__).parents[3] / "competency_questions" / "manifest.ttl"
@@ -16,7 +16,8 @@ ADVISORY = ("P01", "P09", "P14", "P15", "P16", "P17", "P18", "P23")
 
 
 def result(report: Any, code: str) -> Result:
-    return next(r for r in report.results if r.pitfall.code == code)
+    found: Result = next(r for r in report.results if r.pitfall.code == code)
+    return found
 
 
 def test_without_questions(scan_text: Any) -> None:
@@ -55,7 +56,7 @@ def test_expected_answers_and_data_count_too(scan_text: Any, tmp_path: Path) -> 
 
 
 def test_the_bundled_questions_ask_for_nothing_unknown() -> None:
-    found = result(scan([], Settings(questions=MANIFEST), codes=["P09"]), "P09")
+    found = result(scan_pitfalls([], Settings(questions=MANIFEST), codes=["P09"]), "P09")
     assert found.status is Status.CHECKED
     assert not found.occurrences
 

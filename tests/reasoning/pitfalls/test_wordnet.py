@@ -9,7 +9,7 @@ import pytest
 
 from symboslam.reasoning.pitfalls import wordnet as module
 from symboslam.reasoning.pitfalls.model import NotCheckedError, Settings, Status
-from symboslam.reasoning.pitfalls.scan import scan
+from symboslam.reasoning.pitfalls.scan import scan_pitfalls
 
 FOLDER = Settings().wordnet
 
@@ -71,7 +71,7 @@ def test_no_wordnet(tmp_path: Path, strict: bool) -> None:
     path = tmp_path / "o.ttl"
     path.write_text("<https://e.org/o> a <http://www.w3.org/2002/07/owl#Ontology> .")
     codes = ["P07", "P30", "P31"]
-    report = scan([path], Settings(wordnet=tmp_path, strict_oops=strict), codes=codes)
+    report = scan_pitfalls([path], Settings(wordnet=tmp_path, strict_oops=strict), codes=codes)
     for result in report.results:
         if result.pitfall.code in codes:
             assert result.status is Status.NOT_CHECKED
