@@ -31,6 +31,10 @@ class Status(StrEnum):
     ERRORED = "errored"
 
 
+NOT_SELECTED = "not selected"
+"""Why a pitfall was not looked for, if nobody asked for it."""
+
+
 class NotCheckedError(SymboSlamError):
     """A rule that cannot be applied here and now; the message says why."""
 

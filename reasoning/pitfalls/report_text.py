@@ -6,7 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator
 
-from symboslam.reasoning.pitfalls.model import Occurrence, Report, Result, Status
+from symboslam.reasoning.pitfalls.model import NOT_SELECTED, Occurrence, Report, Result, Status
 from symboslam.reasoning.pitfalls.report import (
     most_severe_first,
     place,
@@ -75,6 +75,7 @@ def _unchecked(report: Report) -> Iterator[str]:
         elif result.status is Status.NOT_CHECKED:
             reasons.setdefault(result.reason, []).append(result.pitfall.code)
     for reason, codes in reasons.items():
-        yield f"not checked: {', '.join(codes)}: {reason}"
+        which = f"{len(codes)} others" if reason == NOT_SELECTED else ", ".join(codes)
+        yield f"not checked: {which}: {reason}"
     if report.out_of_time:
         yield "OUT OF TIME: not everything was checked"

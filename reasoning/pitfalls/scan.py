@@ -16,6 +16,7 @@ from symboslam.errors import InputError, OntologyError
 from symboslam.reasoning.axioms import Axiom, split
 from symboslam.reasoning.pitfalls.acceptance import Acceptances
 from symboslam.reasoning.pitfalls.model import (
+    NOT_SELECTED,
     Finding,
     NotCheckedError,
     Occurrence,
@@ -93,16 +94,18 @@ def load(targets: Sequence[str | Path], follow: bool, strict_imports: bool) -> O
         OntologyError: a file does not parse, states no ontology, or an import is missing.
     """
     sources = read_closure(targets or [CLOSURE], strict=strict_imports, follow=follow)
-    given = {_shown(target) for target in targets} or {*sources.documents}
+    given = [_shown(target) for target in targets] or list(sources.documents)
+    names = dict.fromkeys([*given, *sources.documents])  # as given, then what they import
     documents = [
-        Document(name, graph, Path(name) if Path(name).is_file() else None, name in given)
-        for name, graph in sources.documents.items()
+        Document(n, sources.documents[n], Path(n) if Path(n).is_file() else None, n in given)
+        for n in names
+        if n in sources.documents  # not if it was given twice under different names
     ]
     ontology = Ontology(sources, documents, sources.missing)
     declared = (ontology.terms, ontology.annotation_properties, split(ontology.graph)[1])
     if not any(declared) and OWL.Ontology not in ontology.graph.objects(None, RDF.type):
-        names = ", ".join(sorted(given))
-        raise OntologyError(f"{names}: it declares no class and no property; is it an ontology?")
+        shown = ", ".join(given)
+        raise OntologyError(f"{shown}: it declares no class and no property; is it an ontology?")
     return ontology
 
 
@@ -119,7 +122,7 @@ def _run(
     for at, code in enumerate(CODES):
         one = rule(code)
         if code not in codes:
-            yield Result(one.PITFALL, Status.NOT_CHECKED, "not selected")
+            yield Result(one.PITFALL, Status.NOT_CHECKED, NOT_SELECTED)
         elif late:
             yield Result(one.PITFALL, Status.NOT_CHECKED, late)
         else:

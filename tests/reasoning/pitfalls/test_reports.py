@@ -16,6 +16,7 @@ from rdflib import RDF, XSD, Graph, Literal, Namespace, URIRef
 from symboslam import __version__
 from symboslam.errors import InputError
 from symboslam.reasoning.pitfalls.model import (
+    NOT_SELECTED,
     Finding,
     Occurrence,
     Pitfall,
@@ -224,9 +225,10 @@ def test_text_says_that_time_ran_out(report: Report) -> None:
 
 
 def test_one_reason_for_many_pitfalls() -> None:
-    results = [Result(p, Status.NOT_CHECKED, "not selected") for p in (CYCLE, LABELS, ONLINE)]
-    lines = render(report_of(*results), "text").splitlines()
-    assert "not checked: P06, P32, P37: not selected" in lines
+    for reason, told in (("it rains", "P06, P32, P37"), (NOT_SELECTED, "3 others")):
+        results = [Result(p, Status.NOT_CHECKED, reason) for p in (CYCLE, LABELS, ONLINE)]
+        lines = render(report_of(*results), "text").splitlines()
+        assert f"not checked: {told}: {reason}" in lines
 
 
 def test_what_several_findings_have_in_common_is_told_once() -> None:
