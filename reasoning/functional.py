@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 __all__ = ["FunctionalSyntaxError", "parse_functional"]
 
 _DEEPEST = 100  # parentheses inside of each other
+_TEXT = (XSD.string, RDF.PlainLiteral)
+_LANGUAGE = re.compile("[A-Za-z]+(-[A-Za-z0-9]+)*")
 _STANDARD = {"owl": str(OWL), "rdf": str(RDF), "rdfs": str(RDFS), "xsd": str(XSD)}
 
 # A name and its parenthesis are one token; words with a colon are terms: HasKey(:A (:p) ()).
@@ -145,13 +147,15 @@ class _Reader:
 
     def _literal(self, found: re.Match[str]) -> Literal:
         text = re.sub(r"\\(.)", r"\1", found["text"], flags=re.DOTALL)
-        if found["language"]:
-            return Literal(text, lang=found["language"])
+        language, datatype = found["language"], XSD.string
         if found["short"]:
             datatype = self._short(found["short"])
-        else:
-            datatype = URIRef(found["type"]) if found["type"] else XSD.string
+        elif found["type"]:
+            datatype = URIRef(found["type"])
         if datatype == RDF.PlainLiteral:
             text, _, language = text.rpartition("@")
-            return Literal(text, lang=language or None)
-        return Literal(text, datatype=None if datatype == XSD.string else datatype)
+        if language:
+            if not _LANGUAGE.fullmatch(language):
+                raise self._error(f"{language!r} is no language")
+            return Literal(text, lang=language)
+        return Literal(text, datatype=None if datatype in _TEXT else datatype)

@@ -1,17 +1,17 @@
-"""Expressions of OWL 2 functional syntax as RDF: classes, data ranges and properties.
+"""What stands inside the axioms of functional syntax, as RDF: expressions, terms, atoms of rules.
 
-Tables 1 of the W3C's "OWL 2 Mapping to RDF Graphs" (second edition), section 2.1, as tables here. A
-letter in them says what an argument is:
+The tables are Table 1 of the W3C's "OWL 2 Mapping to RDF Graphs" (section 2.1). A letter in them
+says what an argument is:
 
     C class expression, P object property expression, D data range,
-    R a name (data or annotation property, datatype, facet), I individual, L literal,
+    R a name (of a data or annotation property, a datatype, a facet), I individual, L literal,
     S subject of an annotation, V value of an annotation, A argument of a rule's atom
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -25,23 +25,23 @@ if TYPE_CHECKING:
 
 SWRL = Namespace("http://www.w3.org/2003/11/swrl#")
 
-# Several items, of what sort, as a list.
-_LISTS = {
-    "ObjectIntersectionOf": ("C", OWL.intersectionOf), "ObjectUnionOf": ("C", OWL.unionOf),
-    "ObjectOneOf": ("I", OWL.oneOf), "DataIntersectionOf": ("D", OWL.intersectionOf),
-    "DataUnionOf": ("D", OWL.unionOf), "DataOneOf": ("L", OWL.oneOf),
-}  # fmt: skip
-# One node with so many triples.
-_NODES = {
-    "ObjectComplementOf": ("C", (OWL.complementOf,)),
-    "DataComplementOf": ("D", (OWL.datatypeComplementOf,)),
-    "ObjectSomeValuesFrom": ("PC", (OWL.onProperty, OWL.someValuesFrom)),
-    "ObjectAllValuesFrom": ("PC", (OWL.onProperty, OWL.allValuesFrom)),
-    "ObjectHasValue": ("PI", (OWL.onProperty, OWL.hasValue)),
-    "ObjectHasSelf": ("P", (OWL.onProperty,)),
-    "DataSomeValuesFrom": ("RD", (OWL.onProperty, OWL.someValuesFrom)),
-    "DataAllValuesFrom": ("RD", (OWL.onProperty, OWL.allValuesFrom)),
-    "DataHasValue": ("RL", (OWL.onProperty, OWL.hasValue)),
+# Type of the node, what the arguments are ("C+": one class or more, as a list), their predicates.
+_EXPRESSIONS: dict[str, tuple[URIRef, str, tuple[URIRef, ...]]] = {
+    "ObjectIntersectionOf": (OWL.Class, "C+", (OWL.intersectionOf,)),
+    "ObjectUnionOf": (OWL.Class, "C+", (OWL.unionOf,)),
+    "ObjectOneOf": (OWL.Class, "I+", (OWL.oneOf,)),
+    "ObjectComplementOf": (OWL.Class, "C", (OWL.complementOf,)),
+    "ObjectSomeValuesFrom": (OWL.Restriction, "PC", (OWL.onProperty, OWL.someValuesFrom)),
+    "ObjectAllValuesFrom": (OWL.Restriction, "PC", (OWL.onProperty, OWL.allValuesFrom)),
+    "ObjectHasValue": (OWL.Restriction, "PI", (OWL.onProperty, OWL.hasValue)),
+    "ObjectHasSelf": (OWL.Restriction, "P", (OWL.onProperty, OWL.hasSelf)),
+    "DataSomeValuesFrom": (OWL.Restriction, "RD", (OWL.onProperty, OWL.someValuesFrom)),
+    "DataAllValuesFrom": (OWL.Restriction, "RD", (OWL.onProperty, OWL.allValuesFrom)),
+    "DataHasValue": (OWL.Restriction, "RL", (OWL.onProperty, OWL.hasValue)),
+    "DataIntersectionOf": (RDFS.Datatype, "D+", (OWL.intersectionOf,)),
+    "DataUnionOf": (RDFS.Datatype, "D+", (OWL.unionOf,)),
+    "DataOneOf": (RDFS.Datatype, "L+", (OWL.oneOf,)),
+    "DataComplementOf": (RDFS.Datatype, "D", (OWL.datatypeComplementOf,)),
 }
 _COUNT = re.compile(r"(Object|Data)(Min|Max|Exact)Cardinality")
 _COUNTED = {
@@ -49,8 +49,21 @@ _COUNTED = {
     "Max": (OWL.maxCardinality, OWL.maxQualifiedCardinality),
     "Exact": (OWL.cardinality, OWL.qualifiedCardinality),
 }
-_TERMS: dict[str, type | tuple[type, ...]] = {
-    "R": URIRef, "I": (URIRef, BNode), "L": Literal, "S": (URIRef, BNode), "V": Node,
+_ATOMS: dict[str, tuple[URIRef, str, tuple[URIRef, ...]]] = {
+    "ClassAtom": (SWRL.ClassAtom, "CA", (SWRL.classPredicate, SWRL.argument1)),
+    "DataRangeAtom": (SWRL.DataRangeAtom, "DA", (SWRL.dataRange, SWRL.argument1)),
+    "ObjectPropertyAtom": (
+        SWRL.IndividualPropertyAtom, "PAA",
+        (SWRL.propertyPredicate, SWRL.argument1, SWRL.argument2),
+    ),
+    "DataPropertyAtom": (
+        SWRL.DatavaluedPropertyAtom, "RAA",
+        (SWRL.propertyPredicate, SWRL.argument1, SWRL.argument2),
+    ),
+    "SameIndividualAtom": (SWRL.SameIndividualAtom, "AA", (SWRL.argument1, SWRL.argument2)),
+    "DifferentIndividualsAtom": (
+        SWRL.DifferentIndividualsAtom, "AA", (SWRL.argument1, SWRL.argument2),
+    ),
 }  # fmt: skip
 _MEANINGS = {
     "C": "a class", "P": "an object property", "D": "a datatype", "R": "a name",
@@ -80,12 +93,12 @@ class Form:
     line: int
     arguments: list[Form | Node | str] = field(default_factory=list)
 
-    def but(self, *arguments: Argument) -> Form:
+    def but(self, arguments: Sequence[Argument]) -> Form:
         """The same with other arguments."""
         return Form(self.name, self.line, list(arguments))
 
     def error(self, problem: str) -> FunctionalSyntaxError:
-        """An error on the form's line."""
+        """The error that this form is."""
         return FunctionalSyntaxError(self.line, problem)
 
 
@@ -93,20 +106,17 @@ Argument = Form | Node | str
 
 
 class Expressions:
-    """Adds the triples of expressions to a graph."""
+    """Adds what forms mean to a graph, by section 2.1 of the mapping."""
 
     def __init__(self, graph: LocatedGraph) -> None:
-        self._graph = graph
-        self._by_letter: dict[str, Callable[[Argument], Node | None]] = {
-            "C": self._class, "P": self._property, "D": self._range, "A": self._atom_argument,
-        }  # fmt: skip
+        self.graph = graph
 
     def terms(self, form: Form, letters: str, several: int = 0) -> list[Node]:
-        """The arguments of a form as nodes of the graph.
+        """The arguments of a form as nodes.
 
         Args:
             form: has the arguments.
-            letters: what each of them is.
+            letters: what each of them is, in the letters of this module.
             several: at least so many arguments are what the one letter says.
 
         Raises:
@@ -118,26 +128,108 @@ class Expressions:
         elif several or given != len(letters):
             what = f"at least {several}" if several else str(len(letters))
             raise form.error(f"{form.name} has {given} parts, not {what}")
-        return [self._term(x, a, form) for x, a in zip(letters, form.arguments, strict=True)]
+        found = []
+        for letter, argument in zip(letters, form.arguments, strict=True):
+            term = self._term(letter, argument)
+            if term is None:
+                at, said = form, str(argument)
+                if isinstance(argument, Form):
+                    at, said = argument, f"{argument.name}(...)"
+                raise at.error(f"{_MEANINGS[letter]} is expected in {form.name}, not {said}")
+            found.append(term)
+        return found
 
-    def _term(self, letter: str, argument: Argument, form: Form) -> Node:
-        if letter in self._by_letter:
-            term = self._by_letter[letter](argument)
-        else:
-            term = argument if isinstance(argument, _TERMS[letter]) else None  # type: ignore[assignment]
-        if term is None:
-            is_form = isinstance(argument, Form)
-            said, where = (f"{argument.name}(...)", argument) if is_form else (argument, form)
-            raise where.error(f"{_MEANINGS[letter]} is expected in {form.name}, not {said}")
-        return term
+    def _term(self, letter: str, argument: Argument) -> Node | None:
+        """The node of one argument; None where it is not what the letter says."""
+        match letter, argument:
+            case "C" | "D" | "P" | "R" | "I" | "S" | "V" | "A", URIRef():
+                return argument
+            case "I" | "S" | "V" | "A", BNode():
+                return argument
+            case "L" | "V" | "A", Literal():
+                return argument
+            case "C" | "D", Form():
+                return self._expression(letter, argument)
+            case "P", Form(name="ObjectInverseOf", arguments=[URIRef() as named]):
+                self.graph.add((inverse := BNode(), OWL.inverseOf, named))
+                return inverse
+            case "A", Form(name="Variable", arguments=[URIRef() as variable]):
+                self.graph.add((variable, RDF.type, SWRL.Variable))
+                return variable
+        return None
 
-    def _class(self, argument: Argument) -> Node | None:
-        if not isinstance(argument, Form):
-            return argument if isinstance(argument, URIRef) else None
-        if counted := _COUNT.fullmatch(argument.name):
-            return self._counted(argument, counted[1] == "Object", counted[2])
-        if argument.name == "DataComplementOf":
+    def _expression(self, letter: str, form: Form) -> Node | None:
+        """A class expression or data range; None where it is not what the letter says."""
+        if letter == "D" and form.name == "DatatypeRestriction":
+            return self._faceted(form)
+        if letter == "C" and (counted := _COUNT.fullmatch(form.name)):
+            return self._counted(form, counted[1] == "Object", *_COUNTED[counted[2]])
+        kind, letters, predicates = _EXPRESSIONS.get(form.name, (None, "", ()))
+        if kind is None or (kind == RDFS.Datatype) != (letter == "D"):
             return None
-        if argument.name in _NODES:
-            return self._restriction(argument)
-        return self._joined(argument, OWL.Class, "Object")
+        if letters.endswith("+"):
+            return self.node(kind, predicates, [self.seq(self.terms(form, letters[0], several=1))])
+        if letters == "RD" and len(form.arguments) > 2:
+            *several, filler = self.terms(form, "R" * (len(form.arguments) - 1) + "D")
+            return self.node(kind, (OWL.onProperties, predicates[1]), [self.seq(several), filler])
+        values = self.terms(form, letters)
+        if form.name == "ObjectHasSelf":
+            values.append(Literal(True))
+        return self.node(kind, predicates, values)
+
+    def _counted(self, form: Form, is_object: bool, plain: URIRef, qualified: URIRef) -> Node:
+        number, *given = form.arguments or [""]
+        if isinstance(number, Form | Node) or not (number.isascii() and number.isdigit()):
+            raise form.error(f"{form.name} begins with a number")
+        letters = ("PC" if is_object else "RD")[: max(1, len(given))]
+        values = self.terms(form.but(given), letters)
+        values.insert(1, Literal(number, datatype=XSD.nonNegativeInteger))
+        if len(given) < 2:
+            return self.node(OWL.Restriction, (OWL.onProperty, plain), values)
+        filler = OWL.onClass if is_object else OWL.onDataRange
+        return self.node(OWL.Restriction, (OWL.onProperty, qualified, filler), values)
+
+    def _faceted(self, form: Form) -> Node:
+        pairs = (len(form.arguments) - 1) // 2
+        datatype, *given = self.terms(form, "R" + "RL" * max(1, pairs))
+        facets: list[Node] = []
+        for facet, value in zip(given[::2], given[1::2], strict=True):
+            facets.append(BNode())
+            self.graph.add((facets[-1], facet, value))
+        predicates = OWL.onDatatype, OWL.withRestrictions
+        return self.node(RDFS.Datatype, predicates, [datatype, self.seq(facets)])
+
+    def atoms(self, form: Form) -> Node:
+        """The atoms of a rule's body or head, by the RDF syntax of the SWRL submission (2004)."""
+        found = [self._atom(a) for a in form.arguments if isinstance(a, Form)]
+        return self.seq(found, SWRL.AtomList)
+
+    def _atom(self, form: Form) -> Node:
+        if form.name == "BuiltInAtom":
+            builtin, *values = self.terms(form, "R" + "A" * (len(form.arguments) - 1))
+            parts = [builtin, self.seq(values)]
+            return self.node(SWRL.BuiltinAtom, (SWRL.builtin, SWRL.arguments), parts)
+        if form.name not in _ATOMS:
+            raise form.error(f"{form.name} is no atom of a rule")
+        kind, letters, predicates = _ATOMS[form.name]
+        return self.node(kind, predicates, self.terms(form, letters))
+
+    def node(self, kind: URIRef, predicates: Sequence[URIRef], values: Sequence[Node]) -> BNode:
+        """A new node of a type, with a value for each predicate."""
+        node = BNode()
+        self.graph.add((node, RDF.type, kind))
+        for predicate, value in zip(predicates, values, strict=True):
+            self.graph.add((node, predicate, value))
+        return node
+
+    def seq(self, items: Sequence[Node], kind: URIRef | None = None) -> Node:
+        """A new list, T(SEQ ...) of the mapping; ``kind`` is the type of its cells."""
+        head: Node = RDF.nil
+        for item in reversed(items):
+            cell = BNode()
+            if kind:
+                self.graph.add((cell, RDF.type, kind))
+            self.graph.add((cell, RDF.first, item))
+            self.graph.add((cell, RDF.rest, head))
+            head = cell
+        return head

@@ -8,7 +8,7 @@ the whole file that declares it. Without a reason it has no effect.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from rdflib import OWL, RDF, URIRef
@@ -17,6 +17,7 @@ from rdflib.term import Node
 from symboslam.reasoning.axioms import Triple
 from symboslam.reasoning.pitfalls.model import Occurrence, Result, Status
 from symboslam.reasoning.pitfalls.ontology import Ontology
+from symboslam.reasoning.sources import Place
 from symboslam.reasoning.vocabulary import ACCEPTED_PITFALL
 
 _VALUE = re.compile(r"\s*(P\d\d)(-\w)?\s*:?\s*(.*)", re.DOTALL)
@@ -29,7 +30,7 @@ class _Acceptance:
     variant: str
     reason: str
     axiom: Triple | None
-    where: str
+    where: Place
 
 
 class Acceptances:
@@ -39,19 +40,18 @@ class Acceptances:
         self._ontology = ontology
         self._all: list[_Acceptance] = []
         self._used: set[_Acceptance] = set()
-        self._notes: list[str] = []
+        self._notes: list[tuple[Place, str]] = []
         for subject, values in ontology.statements(URIRef(ACCEPTED_PITFALL)).items():
             for value in values:
                 place = ontology.place((subject, URIRef(ACCEPTED_PITFALL), value))
-                self._read(subject, str(value), str(place) if place else "")
+                self._read(subject, str(value), place or Place("", None))
 
-    def _read(self, subject: Node, value: str, where: str) -> None:
+    def _read(self, subject: Node, value: str, where: Place) -> None:
         found = _VALUE.fullmatch(value)
         if not found or not found[3].strip():
             shown = " ".join(value.split())
-            self._notes.append(
-                f'{where}: "{shown}" accepts nothing: write the code and the reason, "P11: ..."'
-            )
+            what = f'"{shown}" accepts nothing: write the code and the reason, "P11: ..."'
+            self._notes.append((where, what))
             return
         code, variant = found[1], found[1] + found[2] if found[2] else ""
         reason = " ".join(found[3].split())
@@ -92,10 +92,13 @@ class Acceptances:
             return occurrence.place.file in files
         return str(acceptance.subject) in finding.elements
 
-    def notes(self, results: Iterable[Result]) -> Iterator[str]:
-        """Acceptances without a reason, and such as accept what is not there (any more)."""
-        yield from self._notes
+    def notes(self, results: Iterable[Result]) -> list[str]:
+        """Acceptances in given files without a reason, and such as accept what is not there."""
         checked = {r.pitfall.code for r in results if r.status is Status.CHECKED}
-        for acceptance in self._all:
-            if acceptance not in self._used and acceptance.code in checked:
-                yield f"{acceptance.where}: accepts {acceptance.code}, which is not found there"
+        stale = [
+            (acceptance.where, f"accepts {acceptance.code}, which is not found there")
+            for acceptance in self._all
+            if acceptance not in self._used and acceptance.code in checked
+        ]
+        told = sorted([*self._notes, *stale], key=lambda n: (n[0].file, n[0].line or 0, n[1]))
+        return [f"{place}: {what}" for place, what in told if place.file in self._ontology.given]
