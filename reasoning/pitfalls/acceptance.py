@@ -74,11 +74,9 @@ class Acceptances:
         return replace(result, occurrences=occurrences)
 
     def _one(self, code: str, occurrence: Occurrence) -> Occurrence:
-        for acceptance in self._all:
-            if acceptance.code == code and self._covers(acceptance, occurrence):
-                self._used.add(acceptance)
-                return replace(occurrence, accepted=acceptance.reason)
-        return occurrence
+        fitting = [a for a in self._all if a.code == code and self._covers(a, occurrence)]
+        self._used.update(fitting)
+        return replace(occurrence, accepted=fitting[0].reason) if fitting else occurrence
 
     def _covers(self, acceptance: _Acceptance, occurrence: Occurrence) -> bool:
         finding = occurrence.finding
