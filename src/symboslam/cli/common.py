@@ -107,3 +107,15 @@ def show(*what: object, error: bool = False) -> None:
     for thing in what:
         text = isinstance(thing, str)
         console.print(thing, markup=not text, soft_wrap=text)
+
+
+def write_text(text: str, out: Path | None, summary: str) -> None:
+    """Write a report to a file and say so with its summary; without a file to standard output."""
+    from symboslam.engine.writers.atomic import atomic_file
+
+    if out is None:
+        sys.stdout.write(text)
+        return
+    with atomic_file(out) as handle:
+        handle.write(text.encode())
+    show(f"{summary}; wrote {out}", error=True)

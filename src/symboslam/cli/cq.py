@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from symboslam.cli.common import progress_bar, show, table
+from symboslam.cli.common import progress_bar, show, table, write_text
 
 if TYPE_CHECKING:
     from symboslam.reasoning.questions.model import Question
@@ -96,7 +95,7 @@ def run(
 
     Exit code 0: none failed; 1: a question failed or is broken; 2: bad input.
     """
-    from symboslam.engine.writers.atomic import atomic_file, check_writable
+    from symboslam.engine.writers.atomic import check_writable
     from symboslam.errors import InputError
     from symboslam.reasoning.questions import run as runner
     from symboslam.reasoning.questions.report import FORMATS, render, summary
@@ -117,13 +116,7 @@ def run(
             strict=not lenient_imports,
             progress=progress,
         )
-    text = render(report, form)
-    if out is None:
-        sys.stdout.write(text)
-    else:
-        with atomic_file(out) as handle:
-            handle.write(text.encode())
-        show(f"{summary(report)}; wrote {out}", error=True)
+    write_text(render(report, form), out, summary(report))
     if not report.ok:
         raise typer.Exit(1)
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import sys
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from symboslam.cli.common import LenientOption, progress_bar, show, table
+from symboslam.cli.common import LenientOption, progress_bar, show, table, write_text
+from symboslam.reasoning.pitfalls.model import Severity
 
 if TYPE_CHECKING:
     from symboslam.reasoning.pitfalls.model import Report
@@ -33,14 +33,6 @@ symboslam pitfalls --list
 OUTPUT = "What is written"
 RULES = "What is looked for"
 INPUT = "What is read"
-
-
-class FailOn(StrEnum):
-    """The least severe pitfall that fails a build."""
-
-    critical = "critical"
-    important = "important"
-    minor = "minor"
 
 
 class Imports(StrEnum):
@@ -78,11 +70,11 @@ def pitfalls(
         ),
     ] = None,
     fail_on: Annotated[
-        FailOn,
+        Severity,
         typer.Option(
             help="Exit with 1 if there is a pitfall this severe or worse.", rich_help_panel=OUTPUT
         ),
-    ] = FailOn.minor,
+    ] = Severity.MINOR,
     baseline: Annotated[
         Path | None,
         typer.Option(
@@ -168,7 +160,7 @@ def pitfalls(
     ontology. Advisory pitfalls fail nothing unless selected. Exit code 0: nothing as severe as
     --fail-on; 1: pitfalls; 2: bad input, or the time limit was reached; 3: a rule crashed.
     """
-    from symboslam.engine.writers.atomic import atomic_file, check_writable
+    from symboslam.engine.writers.atomic import check_writable
     from symboslam.errors import InputError
     from symboslam.reasoning.pitfalls import baseline as base
     from symboslam.reasoning.pitfalls.model import Settings
@@ -206,25 +198,18 @@ def pitfalls(
         )
     if known is not None:
         report = base.apply(report, known)
-    text = render(report, form)
-    if out is None:
-        sys.stdout.write(text)
-    else:
-        with atomic_file(out) as handle:
-            handle.write(text.encode())
-        show(f"{summary(report)}; wrote {out}", error=True)
+    write_text(render(report, form), out, summary(report))
     raise typer.Exit(_exit_code(report, fail_on, select is not None))
 
 
-def _exit_code(report: Report, fail_on: FailOn, chosen: bool) -> int:
+def _exit_code(report: Report, level: Severity, chosen: bool) -> int:
     """3 and 2, a scan that is not whole, come before 1: its answer cannot be relied on."""
-    from symboslam.reasoning.pitfalls.model import Severity, Status
+    from symboslam.reasoning.pitfalls.model import Status
 
     if any(result.status is Status.ERRORED for result in report.results):
         return 3
     if report.out_of_time:
         return 2
-    level = Severity(fail_on.value)
     return int(any(report.failing(level, advisory=chosen)))
 
 
