@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from rdflib import Graph, URIRef
     from rdflib.term import Node
 
-ENDINGS = (".owl", ".ttl", ".rdf", ".owx", ".nt", ".n3", ".jsonld")
+ENDINGS = (".owl", ".ttl", ".rdf", ".owx", ".nt", ".n3", ".ofn", ".jsonld")
 """Endings of the files that are taken for ontologies in a user's folder."""
 
 _OLD_NAMES = "alignments/symboslam-2022.ttl"
