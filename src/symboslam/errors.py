@@ -13,6 +13,7 @@
     │   ├── InconsistentOntologyError it contradicts itself; carries the clashing axioms
     │   └── EmptyOntologyError        it declares no environments or no indications
     ├── OutputError             a result could not be written; what was there before is kept (2)
+    ├── StoreError              the service's store cannot be opened, read or written (exit code 2)
     ├── MissingExtraError       an optional dependency is not installed; names the extra (2)
     └── ReasonerError           the reasoner could not be run: no Java, or it crashed (exit code 3)
 """
@@ -86,6 +87,10 @@ class EmptyOntologyError(OntologyError):
 
 class OutputError(SymboSlamError):
     """A result could not be written."""
+
+
+class StoreError(SymboSlamError):
+    """The store of the service cannot be opened, read or written."""
 
 
 class MissingExtraError(SymboSlamError):

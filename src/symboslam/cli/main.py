@@ -7,7 +7,7 @@ import sys
 
 import typer
 
-from symboslam.cli import classify, cq, explain, ontology, pitfalls, show, validate, why
+from symboslam.cli import classify, cq, explain, ontology, pitfalls, serve, show, validate, why
 from symboslam.errors import SymboSlamError
 
 app = typer.Typer(
@@ -26,6 +26,7 @@ app.command("environments")(show.environments)
 app.command("sample")(show.sample)
 app.command("validate", epilog=validate.EXAMPLES)(validate.validate)
 app.command("pitfalls", epilog=pitfalls.EXAMPLES)(pitfalls.pitfalls)
+app.command("serve", epilog=serve.EXAMPLES)(serve.serve)
 app.command("why", epilog=why.EXAMPLES)(why.why)
 app.add_typer(ontology.app, name="ontology")
 app.add_typer(cq.app, name="cq")

@@ -1,0 +1,43 @@
+"""Is the service alive, and can it answer? And a page that says where everything is."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter, Response
+from fastapi.responses import HTMLResponse, JSONResponse
+
+from symboslam.service.dependencies import CurrentStore
+from symboslam.service.problems import Problem
+
+router = APIRouter(tags=["Health"])
+
+_PAGE = """<!doctype html>
+<html lang="en"><meta charset="utf-8"><title>SymboSLAM</title>
+<h1>SymboSLAM</h1>
+<ul>
+<li><a href="sparql">sparql</a>: SPARQL 1.1 queries and updates; without a query, what it can do
+<li>graphs?graph=IRI: whole graphs, for example
+<a href="graphs?graph=https%3A%2F%2Fw3id.org%2Fsymboslam%2Fgraph%2Fontology">the ontology</a>
+<li><a href="openapi.json">openapi.json</a>: all of it, for programs
+</ul>
+</html>
+"""
+
+
+@router.get("/", include_in_schema=False)
+async def front_page() -> HTMLResponse:
+    """Where everything is."""
+    return HTMLResponse(_PAGE)
+
+
+@router.get("/healthz", summary="Alive?")
+async def healthz() -> JSONResponse:
+    """The process answers."""
+    return JSONResponse({"status": "alive"})
+
+
+@router.get("/readyz", summary="Ready for queries?")
+async def readyz(store: CurrentStore) -> Response:
+    """Queries can be answered."""
+    if not store.ready:
+        raise Problem(503, "not-ready", "no query can be answered", headers={"Retry-After": "1"})
+    return JSONResponse({"status": "ready"})

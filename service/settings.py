@@ -1,0 +1,66 @@
+"""Settings of the service: defaults, environment variables ``SYMBOSLAM_*``, options of ``serve``."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import Field, SecretStr, field_validator
+from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
+
+MIB = 1024 * 1024
+
+
+class Settings(BaseSettings):
+    """Everything that can be set; all defaults work.
+
+    Attributes:
+        data: folder of the store; made if it is not there. ``SYMBOSLAM_DATA``, and so on.
+        admin_token: whoever sends it may write; without one nobody may.
+        public_url: the address that clients see, where that is not the one that reaches us.
+        union_default_graph: queries without a dataset of their own see the union of all graphs.
+        bundled_ontology: keep the bundled ontology in the store.
+        cors_origins: origins whose pages may use the service, separated by commas; ``*``: all.
+        workers: processes that answer queries, so many at a time.
+        worker_memory: bytes of memory that one of them may take; 0: no limit.
+        query_seconds: time limit of a query.
+        queue_length: queries that may wait for a worker; the next one is turned away.
+        queue_seconds: how long a query may wait.
+        max_query_bytes: limit of the text of a query.
+        max_body_bytes: limit of an update or an uploaded graph.
+        max_result_bytes: limit of a result before compression.
+        allow_service: let queries ask other endpoints (``SERVICE``).
+        allow_load: let updates fetch documents by HTTP (``LOAD``); files are never read.
+    """
+
+    model_config = SettingsConfigDict(env_prefix="SYMBOSLAM_", frozen=True)
+
+    data: Path = Path("symboslam-data")
+    admin_token: SecretStr | None = None
+    public_url: str | None = Field(None, pattern=r"^https?://[^\s?#]+$")
+    union_default_graph: bool = True
+    bundled_ontology: bool = True
+    cors_origins: Annotated[tuple[str, ...], NoDecode] = ()
+    workers: int = Field(max(2, os.cpu_count() or 2), ge=1, le=256)
+    worker_memory: int = Field(2048 * MIB, ge=0)
+    query_seconds: float = Field(30.0, gt=0)
+    queue_length: int = Field(64, ge=0)
+    queue_seconds: float = Field(10.0, ge=0)
+    max_query_bytes: int = Field(MIB, gt=0)
+    max_body_bytes: int = Field(64 * MIB, gt=0)
+    max_result_bytes: int = Field(256 * MIB, gt=0)
+    allow_service: bool = False
+    allow_load: bool = False
+
+    @field_validator("cors_origins", mode="before")
+    @classmethod
+    def _split(cls, value: Any) -> Any:
+        if isinstance(value, str):
+            return tuple(part.strip() for part in value.split(",") if part.strip())
+        return value
+
+    @field_validator("admin_token")
+    @classmethod
+    def _not_empty(cls, value: SecretStr | None) -> SecretStr | None:
+        return value if value and value.get_secret_value() else None

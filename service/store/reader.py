@@ -1,0 +1,273 @@
+"""A process that answers queries for the server, one at a time, and that the server may kill.
+
+``python -m symboslam.service.store.reader PATH MEMORY`` reads requests from its standard input and
+writes replies to its standard output. Each is a JSON object in a line, a reply followed by as many
+bytes as its ``size`` says unless they are in the file that the request names. The process keeps a
+read-only store and opens it anew when a request names another version.
+"""
+
+from __future__ import annotations
+
+import gzip
+import io
+import json
+import signal
+import sys
+import time
+from typing import IO, Any
+
+import pyoxigraph
+
+from symboslam.service.store.documents import place_and_problem
+from symboslam.service.vocabulary import PREFIXES, SOLUTIONS, TRIPLES
+
+INLINE = 256 * 1024
+"""Larger results go through a file."""
+_ATTEMPTS = 8
+_OVERTIME = 5  # seconds; the server kills sooner, unless it was killed itself
+_WITH_PREFIXES = ("TURTLE", "TRIG", "RDF_XML")
+
+
+class TooLargeError(Exception):
+    """The result is over the limit."""
+
+
+class Kept:
+    """Bytes in memory, or in a file once they are many.
+
+    Args:
+        path: the file.
+    """
+
+    def __init__(self, path: str) -> None:
+        self._path = path
+        self._target: IO[bytes] = io.BytesIO()
+        self.size = 0
+        self.in_file = False
+
+    def write(self, data: bytes) -> int:
+        """Keep some more."""
+        if not self.in_file and self.size + len(data) > INLINE:
+            small = self.content()
+            self._target = open(self._path, "wb")
+            self._target.write(small)
+            self.in_file = True
+        self._target.write(data)
+        self.size += len(data)
+        return len(data)
+
+    def flush(self) -> None:
+        """Let others see what is in the file."""
+        self._target.flush()
+
+    def content(self) -> bytes:
+        """The bytes, unless they are in the file."""
+        return self._target.getvalue() if isinstance(self._target, io.BytesIO) else b""
+
+    def close(self) -> None:
+        """Close the file, which stays."""
+        self._target.close()
+
+
+class Sink:
+    """Takes a result: counts it, compresses it, keeps it.
+
+    Args:
+        path: the file for a result that is not small.
+        limit: bytes before compression.
+        compress: whether to.
+    """
+
+    def __init__(self, path: str, limit: int, compress: bool) -> None:
+        self.kept = Kept(path)
+        self.too_large = False
+        self._left = limit
+        self._gzip: gzip.GzipFile | None = None
+        if compress:
+            self._gzip = gzip.GzipFile("", "wb", 1, self.kept, mtime=0)  # type: ignore[arg-type]
+
+    def write(self, data: bytes) -> int:
+        """Take some more.
+
+        Raises:
+            TooLargeError: it is more than the limit; ``too_large`` says so too.
+        """
+        self._left -= len(data)
+        if self._left < 0:
+            self.too_large = True
+            raise TooLargeError
+        return self._gzip.write(data) if self._gzip else self.kept.write(data)
+
+    def flush(self) -> None:
+        """Nothing: it is all written at the end."""
+
+    def finish(self) -> tuple[int, bytes]:
+        """How many bytes there are, and they themselves unless they are in the file."""
+        if self._gzip:
+            self._gzip.close()
+        self.kept.flush()
+        content = self.kept.content()
+        self.kept.close()
+        return self.kept.size, content
+
+
+class Reader:
+    """A read-only store that follows the one that writes.
+
+    Args:
+        path: the folder of the store.
+    """
+
+    def __init__(self, path: str) -> None:
+        self._path = path
+        self._store: pyoxigraph.Store | None = None
+        self._version = ""
+
+    def at(self, version: str) -> pyoxigraph.Store:
+        """The store as it is at a version, or later.
+
+        Opening may meet a file that the writer has just replaced; the next attempt finds the new.
+        """
+        if self._store is None or version != self._version:
+            self._store = None
+            for attempt in range(_ATTEMPTS):
+                try:
+                    self._store = pyoxigraph.Store.read_only(self._path)
+                    break
+                except OSError:
+                    if attempt == _ATTEMPTS - 1:
+                        raise
+                    time.sleep(0.01 * 2**attempt)
+            self._version = version
+        assert self._store is not None
+        return self._store
+
+    def forget(self) -> None:
+        """Open anew next time."""
+        self._store = None
+
+
+def answer(reader: Reader, request: dict[str, Any], sink: Sink) -> dict[str, Any]:
+    """Carry out a request; the reply says ``media_type`` or ``error``."""
+    if request["kind"] == "rehearse":
+        return _rehearse(request)
+    store = reader.at(request["version"])
+    if request["kind"] == "graph":
+        return _graph(store, request, sink)
+    return _query(store, request, sink)
+
+
+def _query(store: pyoxigraph.Store, request: dict[str, Any], sink: Sink) -> dict[str, Any]:
+    graphs: dict[str, Any] = {}
+    if request["default_graphs"] or request["named_graphs"]:
+        # Given by the protocol, which leaves nothing of what the query itself may say.
+        graphs["default_graph"] = [pyoxigraph.NamedNode(g) for g in request["default_graphs"]]
+        graphs["named_graphs"] = [pyoxigraph.NamedNode(g) for g in request["named_graphs"]]
+    try:
+        result = store.query(
+            request["text"],
+            base_iri=request["base"],
+            use_default_graph_as_union=request["union"] and not graphs,
+            **graphs,
+        )
+    except (SyntaxError, ValueError) as error:
+        return _malformed(error)
+    solutions, boolean, triples = request["formats"]
+    if isinstance(result, pyoxigraph.QueryTriples):
+        if triples is None:
+            return {"error": "not-acceptable", "kind": "a graph"}
+        name = TRIPLES[triples]
+        rdf_format = getattr(pyoxigraph.RdfFormat, name)
+        if name in _WITH_PREFIXES:
+            pyoxigraph.serialize(result, sink, rdf_format, prefixes=PREFIXES)
+        else:
+            result.serialize(sink, rdf_format)
+        return {"media_type": triples}
+    is_boolean = isinstance(result, pyoxigraph.QueryBoolean)
+    media_type = boolean if is_boolean else solutions
+    if media_type is None:
+        return {"error": "not-acceptable", "kind": "true or false" if is_boolean else "a table"}
+    result.serialize(sink, getattr(pyoxigraph.QueryResultsFormat, SOLUTIONS[media_type]))
+    return {"media_type": media_type}
+
+
+def _graph(store: pyoxigraph.Store, request: dict[str, Any], sink: Sink) -> dict[str, Any]:
+    graph = pyoxigraph.NamedNode(request["graph"]) if request["graph"] else None
+    if graph is not None and not store.contains_named_graph(graph):
+        return {"error": "missing-graph"}
+    name = TRIPLES[request["media_type"]]
+    store.dump(
+        sink,
+        getattr(pyoxigraph.RdfFormat, name),
+        from_graph=graph or pyoxigraph.DefaultGraph(),
+        prefixes=PREFIXES if name in _WITH_PREFIXES else None,
+    )
+    return {"media_type": request["media_type"]}
+
+
+def _rehearse(request: dict[str, Any]) -> dict[str, Any]:
+    """Try an update on an empty store: does it parse, and does it leave the process alive?"""
+    try:
+        pyoxigraph.Store().update(request["text"], base_iri=request["base"])
+    except (SyntaxError, ValueError) as error:
+        return _malformed(error)
+    except (RuntimeError, OSError):
+        pass  # a graph that is not there, or a document to load; the true store knows better
+    return {"media_type": ""}
+
+
+def _malformed(error: Exception) -> dict[str, Any]:
+    problem, line, column = place_and_problem(error)
+    return {"error": "malformed", "detail": problem, "line": line, "column": column}
+
+
+def handle(reader: Reader, request: dict[str, Any]) -> tuple[dict[str, Any], bytes]:
+    """A request's reply and the bytes that follow it."""
+    sink = Sink(request["file"], request["limit"], request["gzip"])
+    try:
+        reply = answer(reader, request, sink)
+        if "error" in reply:
+            return reply, b""
+        size, content = sink.finish()
+        return {**reply, "size": size, "in_file": sink.kept.in_file}, content
+    except Exception as error:  # pyoxigraph may wrap what the sink raises
+        if sink.too_large:
+            return {"error": "too-large"}, b""
+        if isinstance(error, MemoryError):
+            return {"error": "memory"}, b""
+        kind = "store" if isinstance(error, OSError) else "failed"
+        return {"error": kind, "detail": str(error)}, b""
+
+
+def main() -> None:
+    """Answer requests until there are no more."""
+    path, memory = sys.argv[1], int(sys.argv[2])
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the server, which ends us
+    _limit_memory(memory)
+    reader = Reader(path)
+    source, target = sys.stdin.buffer, sys.stdout.buffer
+    for line in source:
+        request = json.loads(line)
+        if hasattr(signal, "alarm"):
+            signal.alarm(int(request["seconds"]) + _OVERTIME)  # ends us, whatever we are in
+        reply, content = handle(reader, request)
+        if reply.get("error") == "store":  # a file that the writer has replaced meanwhile
+            reader.forget()
+            reply, content = handle(reader, request)
+        if hasattr(signal, "alarm"):
+            signal.alarm(0)
+        target.write(json.dumps(reply).encode() + b"\n" + content)
+        target.flush()
+
+
+def _limit_memory(size: int) -> None:
+    try:
+        import resource
+    except ImportError:  # not on Windows
+        return
+    if size:
+        resource.setrlimit(resource.RLIMIT_DATA, (size, size))
+
+
+if __name__ == "__main__":
+    main()

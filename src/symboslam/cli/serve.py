@@ -1,0 +1,133 @@
+"""``symboslam serve``: the web service."""
+
+from __future__ import annotations
+
+import socket
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from symboslam.errors import InputError, MissingExtraError
+
+if TYPE_CHECKING:
+    from symboslam.service.settings import Settings
+
+EXAMPLES = """
+[bold]Examples[/]
+
+symboslam serve
+
+SYMBOSLAM_ADMIN_TOKEN=... symboslam serve --data /srv/maps --port 8000
+
+curl -G localhost:8080/sparql --data-urlencode 'query=SELECT * { ?s ?p ?o } LIMIT 3'
+"""
+_GRACE = 10  # seconds that running requests get when the service stops
+
+
+def serve(
+    data: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="DIR", help="Folder of the store; made if needed.",
+            show_default="symboslam-data, or SYMBOSLAM_DATA",
+        ),
+    ] = None,
+    host: Annotated[str, typer.Option(help="Address to listen at.")] = "127.0.0.1",
+    port: Annotated[int, typer.Option(min=0, max=65535, help="0: any that is free.")] = 8080,
+    open_: Annotated[bool, typer.Option("--open", help="Open it in a browser.")] = False,
+) -> None:  # fmt: skip
+    """Serve SPARQL over HTTP until Ctrl-C.
+
+    Reading is free; writing needs the token in SYMBOSLAM_ADMIN_TOKEN. All settings are in
+    docs/service.md. Exit code 0: stopped; 2: the address or the folder is in use, or a setting
+    is wrong.
+    """
+    try:
+        import fastapi  # noqa: F401
+        import pydantic_settings  # noqa: F401
+        import uvicorn  # noqa: F401
+    except ImportError as error:
+        raise MissingExtraError(error.name or "fastapi", "service") from error
+    settings = _settings(data)
+    listening = _listen(host, port)
+    with listening:
+        _run(settings, listening, open_)
+
+
+def _settings(data: Path | None) -> Settings:
+    from pydantic import ValidationError
+
+    from symboslam.service.settings import Settings
+
+    given: dict[str, Any] = {} if data is None else {"data": data}
+    try:
+        return Settings(**given)
+    except ValidationError as error:
+        first = error.errors(include_input=False, include_url=False)[0]
+        name = "SYMBOSLAM_" + "_".join(str(part) for part in first["loc"]).upper()
+        raise InputError(f"{name}: {first['msg']}") from error
+
+
+def _listen(host: str, port: int) -> socket.socket:
+    try:
+        kind, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0::4]
+        listening = socket.socket(kind, socket.SOCK_STREAM)
+        listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            listening.bind(address)
+        except OSError:
+            listening.close()
+            raise
+    except OSError as error:
+        problem = error.strerror or error
+        raise InputError(
+            f"cannot listen at {host}:{port}: {problem}; take another --port"
+        ) from error
+    return listening
+
+
+def _run(settings: Settings, listening: socket.socket, open_: bool) -> None:
+    import signal
+
+    import uvicorn
+
+    from symboslam.service.app import create_app
+    from symboslam.service.store.oxigraph import OxigraphStore
+
+    host, port = listening.getsockname()[:2]
+    shown = f"[{host}]" if ":" in host else host
+    address = settings.public_url or f"http://{shown}:{port}"
+
+    class Server(uvicorn.Server):
+        async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+            await super().startup(sockets)
+            if self.started:
+                _tell(settings, address, open_)
+
+    store = OxigraphStore(settings)
+    config = uvicorn.Config(
+        create_app(settings, store), log_level="warning", server_header=False,
+        timeout_graceful_shutdown=_GRACE,
+    )  # fmt: skip
+    server = Server(config)
+    # uvicorn hands the signal that stopped it on to these; a stop that was asked for is no failure.
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: None)
+    server.run([listening])
+    if not server.started:
+        raise RuntimeError("the service did not start")
+    print("stopped")
+
+
+def _tell(settings: Settings, address: str, open_: bool) -> None:
+    import webbrowser
+
+    print(f"SymboSLAM serves {settings.data}")
+    print(f"  SPARQL   {address}/sparql")
+    print(f"  graphs   {address}/graphs")
+    if settings.admin_token is None:
+        print("  read-only: no SYMBOSLAM_ADMIN_TOKEN")
+    print("Stop with Ctrl-C.", flush=True)
+    if open_:
+        webbrowser.open(address + "/")
