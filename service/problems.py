@@ -15,6 +15,8 @@ from starlette.routing import Match
 from symboslam.errors import StoreError
 from symboslam.service.vocabulary import PROBLEM_JSON, PROBLEMS
 
+_METHODS = ("GET", "HEAD", "POST", "PUT", "PATCH", "DELETE")
+
 
 class Problem(Exception):
     """A request that gets no answer.
@@ -93,9 +95,12 @@ def install(app: FastAPI) -> None:
 
 
 def _methods(app: FastAPI, request: Request) -> list[str]:
-    """All methods of all routes at the path of a request."""
-    found: set[str] = set()
-    for route in app.routes:
-        if route.matches(request.scope)[0] != Match.NONE:
-            found |= set(getattr(route, "methods", None) or ())
-    return sorted(found)
+    """The methods that some route takes at the path of a request."""
+    return [
+        method
+        for method in _METHODS
+        if any(
+            route.matches({**request.scope, "method": method})[0] == Match.FULL
+            for route in app.routes
+        )
+    ]

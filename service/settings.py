@@ -1,4 +1,4 @@
-"""Settings of the service: defaults, environment variables ``SYMBOSLAM_*``, options of ``serve``."""
+"""Settings of the service: every default works, ``SYMBOSLAM_*`` in the environment changes it."""
 
 from __future__ import annotations
 

@@ -154,7 +154,7 @@ class Store(ABC):
 
     @abstractmethod
     async def read_graph(self, graph: str | None, media_type: str, gzip: bool) -> Answer:
-        """A whole graph; the errors of `query`, and:
+        """A whole graph; its errors are those of `query`, and one more.
 
         Raises:
             MissingGraphError: it is not there.

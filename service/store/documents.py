@@ -16,6 +16,8 @@ _PLACE = re.compile(
     r"(?:Parser )?error at (?:line )?(\d+)(?: column |:| between columns )(\d+)(?: and \d+)?: *",
     re.IGNORECASE,
 )
+_EXPECTED = "expected one of "
+_PARTS = re.compile(r"""\[.*?\](?=, |$)|"(?:\\.|[^"])*"|[^,]*[^, ]""")
 _LONGEST = 300
 
 
@@ -26,10 +28,24 @@ def place_and_problem(error: Exception) -> tuple[str, int | None, int | None]:
     if found := _PLACE.match(text):
         line, column = int(found[1]), int(found[2])
         text = text[found.end() :]
-    text = " ".join(text.split())
+    text = _readable(" ".join(text.split()))
     if len(text) > _LONGEST:
         text = text[:_LONGEST].rsplit(" ", 1)[0] + " ..."
     return text or "it does not parse", line, column
+
+
+def _readable(text: str) -> str:
+    """What a parser expected, without its classes of characters."""
+    if text == "expected [_]":
+        return "this does not belong here, or something is missing"
+    if not text.startswith(_EXPECTED):
+        return text
+    parts = [part.strip() for part in _PARTS.findall(text.removeprefix(_EXPECTED))]
+    expected = [part for part in parts if part and part[0] != "["]
+    told = [part for part in expected if " " in part and part[0] not in "\"'"]
+    if told:  # such as "Prefix not found"
+        return told[0]
+    return "expected one of " + ", ".join(expected) if expected else _readable("expected [_]")
 
 
 def parse(document: Document) -> list[Triple]:
