@@ -118,6 +118,11 @@ class Pool:
         return len(self._all)
 
     @property
+    def busy(self) -> int:
+        """Workers that are not free: they answer, or start."""
+        return self._size - self._idle.qsize()
+
+    @property
     def processes(self) -> list[int]:
         """Their process ids."""
         return sorted(worker.process.pid for worker in self._all)

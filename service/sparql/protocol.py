@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 from fastapi import APIRouter, Request, Response
 
 from symboslam.service.auth import require_admin
@@ -25,7 +28,7 @@ from symboslam.service.responses import (
 from symboslam.service.settings import Settings
 from symboslam.service.sparql import negotiation, tokens
 from symboslam.service.sparql.description import describe
-from symboslam.service.store._base import Query, Store
+from symboslam.service.store._base import Query, QueryError, Store
 from symboslam.service.vocabulary import FORM, SPARQL_QUERY, SPARQL_UPDATE
 
 router = APIRouter(tags=["SPARQL"])
@@ -121,7 +124,7 @@ async def _query(
         tag = etag(store.version, query)
         if same := not_modified(request, tag):
             return same
-    with problems_of_the_store():
+    with problems_of_the_store(), _prefixes_explained(text):
         answer = await unless_disconnected(request, store.query(query))
     return respond(request, answer, tag)
 
@@ -144,9 +147,21 @@ async def _update(
     except tokens.DatasetConflictError as error:
         detail = f"the dataset is given twice: by the request and by {error} in the update"
         raise Problem(400, "dataset-conflict", detail) from error
-    with problems_of_the_store():
+    with problems_of_the_store(), _prefixes_explained(text):
         await store.update(text, _base(request, settings))
     return Response(status_code=204)
+
+
+@contextmanager
+def _prefixes_explained(text: str) -> Iterator[None]:
+    """Say so where a query does not parse because it forgets a prefix."""
+    try:
+        yield
+    except QueryError as error:
+        if missing := tokens.undeclared_prefixes(text):
+            problem = f"the prefix {missing[0]} is not declared"
+            raise QueryError(problem, error.line, error.column) from error
+        raise
 
 
 def _base(request: Request, settings: Settings) -> str:

@@ -112,6 +112,25 @@ def is_stable(query: str) -> bool:
     return not any(token.word in _CHANGES for token in tokens(query))
 
 
+def undeclared_prefixes(text: str) -> list[str]:
+    """Prefixes that are used and not declared, in their order; Oxigraph does not say so.
+
+    >>> undeclared_prefixes("ASK { ?s rdfs:label 'x' }")
+    ['rdfs:']
+    """
+    declared, used = {"_:"}, []
+    before = ""
+    for token in tokens(text):
+        if token.kind == "name":
+            prefix = token.text.partition(":")[0] + ":"
+            if before == "PREFIX":
+                declared.add(prefix)
+            elif prefix not in declared and prefix not in used:
+                used.append(prefix)
+        before = token.word
+    return used
+
+
 class DatasetConflictError(ValueError):
     """The dataset is given twice: by the request and by the update."""
 

@@ -79,6 +79,11 @@ class OxigraphStore(Store):
         return self._store is not None and self._pool.alive > 0
 
     @property
+    def busy(self) -> int:
+        """How many of the workers are not free."""
+        return self._pool.busy
+
+    @property
     def workers(self) -> list[int]:
         """Ids of the processes that answer queries."""
         return self._pool.processes
