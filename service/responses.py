@@ -36,11 +36,9 @@ def problems_of_the_store() -> Iterator[None]:
     try:
         yield
     except DocumentError as error:
-        where = {"line": error.line, "column": error.column}
-        raise Problem(400, "malformed-graph", _located(error), **where) from error
+        raise _malformed("malformed-graph", error) from error
     except QueryError as error:
-        where = {"line": error.line, "column": error.column}
-        raise Problem(400, "malformed-query", _located(error), **where) from error
+        raise _malformed("malformed-query", error) from error
     except NotAcceptableError as error:
         raise Problem(406, "not-acceptable", str(error)) from error
     except MissingGraphError as error:
@@ -56,13 +54,12 @@ def problems_of_the_store() -> Iterator[None]:
         raise Problem(503, "too-busy", str(error), headers={"Retry-After": "2"}) from error
 
 
-def _located(error: QueryError) -> str:
-    if error.line is None:
-        return str(error)
-    place = f"line {error.line}"
-    if error.column is not None:
-        place += f", column {error.column}"
-    return f"{place}: {error}"
+def _malformed(name: str, error: QueryError) -> Problem:
+    detail = str(error)
+    if error.line is not None:
+        column = "" if error.column is None else f", column {error.column}"
+        detail = f"line {error.line}{column}: {detail}"
+    return Problem(400, name, detail, line=error.line, column=error.column)
 
 
 def etag(version: str, *parts: object) -> str:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from fastapi import Request, Response
 
+from symboslam.reasoning.vocabulary import RDF_NAMESPACE
 from symboslam.service.problems import Problem
 from symboslam.service.requests import address
 from symboslam.service.responses import etag, not_modified, respond
@@ -15,7 +16,6 @@ from symboslam.service.store._base import Answer, Store
 from symboslam.service.vocabulary import (
     FORMATS,
     PREFIXES,
-    RDF_NAMESPACE,
     RESULT_FORMATS,
     SD,
     SOLUTIONS,

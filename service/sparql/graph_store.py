@@ -174,7 +174,7 @@ def _parts(header: Message, data: bytes) -> list[Message]:
     """
     head = f"Content-Type: {header['Content-Type']}\r\n\r\n".encode("latin-1", "replace")
     whole = BytesParser(policy=HTTP).parsebytes(head + data)
-    parts = list(whole.iter_parts()) if whole.is_multipart() else []
+    parts: list[Message] = list(whole.iter_parts()) if whole.is_multipart() else []
     if not parts or whole.defects:
         raise Problem(400, "malformed-multipart", "the body is not what its boundary promises")
     return parts

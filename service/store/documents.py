@@ -40,9 +40,9 @@ def _readable(text: str) -> str:
         return "this does not belong here, or something is missing"
     if not text.startswith(_EXPECTED):
         return text
-    parts = [part.strip() for part in _PARTS.findall(text.removeprefix(_EXPECTED))]
+    parts: list[str] = [part.strip() for part in _PARTS.findall(text.removeprefix(_EXPECTED))]
     expected = [part for part in parts if part and part[0] != "["]
-    told = [part for part in expected if " " in part and part[0] not in "\"'"]
+    told: list[str] = [part for part in expected if " " in part and part[0] not in "\"'"]
     if told:  # such as "Prefix not found"
         return told[0]
     return "expected one of " + ", ".join(expected) if expected else _readable("expected [_]")

@@ -11,10 +11,12 @@ from __future__ import annotations
 import gzip
 import io
 import json
+import os
 import signal
 import sys
+import threading
 import time
-from typing import IO, Any
+from typing import IO, Any, cast
 
 import pyoxigraph
 
@@ -24,6 +26,7 @@ from symboslam.service.vocabulary import PREFIXES, SOLUTIONS, TRIPLES
 INLINE = 256 * 1024
 """Larger results go through a file."""
 _ATTEMPTS = 8
+_SMALL_STACK = 2 * 1024 * 1024
 _OVERTIME = 5  # seconds; the server kills sooner, unless it was killed itself
 _WITH_PREFIXES = ("TURTLE", "TRIG", "RDF_XML")
 
@@ -68,6 +71,12 @@ class Kept:
         """Close the file, which stays."""
         self._target.close()
 
+    def discard(self) -> None:
+        """Close the file and remove it."""
+        self._target.close()
+        if self.in_file:
+            os.unlink(self._path)
+
 
 class Sink:
     """Takes a result: counts it, compresses it, keeps it.
@@ -84,7 +93,7 @@ class Sink:
         self._left = limit
         self._gzip: gzip.GzipFile | None = None
         if compress:
-            self._gzip = gzip.GzipFile("", "wb", 1, self.kept, mtime=0)  # type: ignore[arg-type]
+            self._gzip = gzip.GzipFile("", "wb", 1, self.kept, mtime=0)
 
     def write(self, data: bytes) -> int:
         """Take some more.
@@ -147,7 +156,7 @@ class Reader:
         self._store = None
 
 
-def answer(reader: Reader, request: dict[str, Any], sink: Sink) -> dict[str, Any]:
+def answer(reader: Reader, request: dict[str, Any], sink: IO[bytes]) -> dict[str, Any]:
     """Carry out a request; the reply says ``media_type`` or ``error``."""
     if request["kind"] == "rehearse":
         return _rehearse(request)
@@ -157,7 +166,7 @@ def answer(reader: Reader, request: dict[str, Any], sink: Sink) -> dict[str, Any
     return _query(store, request, sink)
 
 
-def _query(store: pyoxigraph.Store, request: dict[str, Any], sink: Sink) -> dict[str, Any]:
+def _query(store: pyoxigraph.Store, request: dict[str, Any], sink: IO[bytes]) -> dict[str, Any]:
     graphs: dict[str, Any] = {}
     if request["default_graphs"] or request["named_graphs"]:
         # Given by the protocol, which leaves nothing of what the query itself may say.
@@ -191,7 +200,7 @@ def _query(store: pyoxigraph.Store, request: dict[str, Any], sink: Sink) -> dict
     return {"media_type": media_type}
 
 
-def _graph(store: pyoxigraph.Store, request: dict[str, Any], sink: Sink) -> dict[str, Any]:
+def _graph(store: pyoxigraph.Store, request: dict[str, Any], sink: IO[bytes]) -> dict[str, Any]:
     graph = pyoxigraph.NamedNode(request["graph"]) if request["graph"] else None
     if graph is not None and not store.contains_named_graph(graph):
         return {"error": "missing-graph"}
@@ -206,14 +215,26 @@ def _graph(store: pyoxigraph.Store, request: dict[str, Any], sink: Sink) -> dict
 
 
 def _rehearse(request: dict[str, Any]) -> dict[str, Any]:
-    """Try an update on an empty store: does it parse, and does it leave the process alive?"""
-    try:
-        pyoxigraph.Store().update(request["text"], base_iri=request["base"])
-    except (SyntaxError, ValueError) as error:
-        return _malformed(error)
-    except (RuntimeError, OSError):
-        pass  # a graph that is not there, or a document to load; the true store knows better
-    return {"media_type": ""}
+    """Try an update on an empty store: does it parse, and does it leave the process alive?
+
+    With a quarter of the server's stack, so that what passes here is far from the end of that.
+    """
+    reply: dict[str, Any] = {"media_type": ""}
+
+    def rehearse() -> None:
+        try:
+            pyoxigraph.Store().update(request["text"], base_iri=request["base"])
+        except (SyntaxError, ValueError) as error:
+            reply.update(_malformed(error))
+        except (RuntimeError, OSError):
+            pass  # a graph that is not there, or the like; the true store knows better
+
+    before = threading.stack_size(_SMALL_STACK)
+    thread = threading.Thread(target=rehearse)
+    thread.start()
+    threading.stack_size(before)
+    thread.join()
+    return reply
 
 
 def _malformed(error: Exception) -> dict[str, Any]:
@@ -225,18 +246,20 @@ def handle(reader: Reader, request: dict[str, Any]) -> tuple[dict[str, Any], byt
     """A request's reply and the bytes that follow it."""
     sink = Sink(request["file"], request["limit"], request["gzip"])
     try:
-        reply = answer(reader, request, sink)
-        if "error" in reply:
-            return reply, b""
-        size, content = sink.finish()
-        return {**reply, "size": size, "in_file": sink.kept.in_file}, content
+        reply = answer(reader, request, cast("IO[bytes]", sink))
+        if "error" not in reply:
+            size, content = sink.finish()
+            return {**reply, "size": size, "in_file": sink.kept.in_file}, content
     except Exception as error:  # pyoxigraph may wrap what the sink raises
         if sink.too_large:
-            return {"error": "too-large"}, b""
-        if isinstance(error, MemoryError):
-            return {"error": "memory"}, b""
-        kind = "store" if isinstance(error, OSError) else "failed"
-        return {"error": kind, "detail": str(error)}, b""
+            reply = {"error": "too-large"}
+        elif isinstance(error, MemoryError):
+            reply = {"error": "memory"}
+        else:
+            kind = "store" if isinstance(error, OSError) else "failed"
+            reply = {"error": kind, "detail": str(error)}
+    sink.kept.discard()
+    return reply, b""
 
 
 def main() -> None:

@@ -15,11 +15,11 @@ pytest.importorskip("fastapi", reason="needs symboslam[service]")
 pytest.importorskip("httpx", reason="needs the dev extra")
 pytest.importorskip("uvicorn", reason="needs symboslam[service]")
 
-import httpx  # noqa: E402
-import uvicorn  # noqa: E402
+import httpx
+import uvicorn
 
-from symboslam.service.app import create_app  # noqa: E402
-from symboslam.service.settings import Settings  # noqa: E402
+from symboslam.service.app import create_app
+from symboslam.service.settings import Settings
 
 if TYPE_CHECKING:
     from fastapi import FastAPI

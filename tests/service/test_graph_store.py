@@ -49,7 +49,7 @@ def test_formats_out(service: Service, kind: str) -> None:
     rdf_format = RdfFormat.from_media_type(kind)
     assert rdf_format is not None
     (quad,) = parse(response.content, rdf_format)
-    assert quad.object.value == "größer"  # type: ignore[union-attr]
+    assert quad.object.value == "größer"
 
 
 def test_replacing_leaves_nothing(service: Service) -> None:

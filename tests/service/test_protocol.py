@@ -191,13 +191,13 @@ def test_sizes(service: Service) -> None:
 def test_writing_needs_the_token(
     service: Service, headers: dict[str, str], status: int, name: str
 ) -> None:
-    raw = {k: v.encode("latin-1") for k, v in headers.items()}
-    kind = {"Content-Type": b"application/sparql-update"}
+    raw = {k.encode(): v.encode("latin-1") for k, v in headers.items()}
+    kind = {b"Content-Type": b"application/sparql-update"}
     direct = service.client.post("/sparql", content=DATA, headers={**raw, **kind})
     problem(direct, status, name)
     assert direct.headers["www-authenticate"].startswith("Bearer")
     problem(service.client.post("/sparql", data={"update": DATA}, headers=raw), status, name)
-    turtle = {**raw, "Content-Type": b"text/turtle"}
+    turtle = {**raw, b"Content-Type": b"text/turtle"}
     for method in ("PUT", "POST", "DELETE"):
         response = service.client.request(method, "/graphs?default", content="", headers=turtle)
         problem(response, status, name)

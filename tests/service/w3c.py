@@ -99,7 +99,7 @@ def cases(suite: str, *names: str) -> list[Case]:
             return []
         graph = Graph().parse(file)
         kinds = (MF.ProtocolTest, MF.GraphStoreProtocolTest)
-        for test in sorted(s for kind in kinds for s in graph.subjects(RDF.type, kind)):
+        for test in sorted((s for kind in kinds for s in graph.subjects(RDF.type, kind)), key=str):
             case = Case(str(test).rpartition("#")[2])
             for data in graph.objects(test, UT.graphData):
                 path = str(graph.value(data, UT.graph)).rpartition("/")[2]
