@@ -7,6 +7,7 @@ import contextlib
 import json
 import os
 import sys
+from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any
@@ -36,18 +37,22 @@ class Worker:
     Args:
         process: it.
         file: where it puts what is not small.
+
+    Attributes:
+        snapshot: the folder that it has open, if it has.
     """
 
     def __init__(self, process: asyncio.subprocess.Process, file: Path) -> None:
         self.process, self._file = process, file
+        self.snapshot: str | None = None
 
     @classmethod
-    async def start(cls, store: Path, file: Path, memory: int) -> Worker:
-        """Start a process that reads a store."""
+    async def start(cls, file: Path, memory: int) -> Worker:
+        """Start a process."""
         # Not our secrets; and not the folder that we happen to be in (-P).
         environment = {k: v for k, v in os.environ.items() if not k.startswith("SYMBOSLAM_")}
         process = await asyncio.create_subprocess_exec(
-            sys.executable, "-P", "-m", _MODULE, str(store), str(memory),
+            sys.executable, "-P", "-m", _MODULE, str(memory),
             stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE,
             stderr=asyncio.subprocess.DEVNULL, env=environment, limit=_LONGEST_LINE,
         )  # fmt: skip
@@ -91,7 +96,6 @@ class Pool:
     """Workers for one store.
 
     Args:
-        store: folder of the store.
         spool: folder for results that are not small; emptied.
         size: how many workers.
         memory: bytes that each may take; 0: no limit.
@@ -100,10 +104,10 @@ class Pool:
     """
 
     def __init__(
-        self, store: Path, spool: Path, *, size: int, memory: int, queue_length: int,
+        self, spool: Path, *, size: int, memory: int, queue_length: int,
         queue_seconds: float,
     ) -> None:  # fmt: skip
-        self._store, self._spool, self._size, self._memory = store, spool, size, memory
+        self._spool, self._size, self._memory = spool, size, memory
         self._queue_length, self._queue_seconds = queue_length, queue_seconds
         self._idle: asyncio.Queue[Worker] = asyncio.Queue()
         self._all: set[Worker] = set()
@@ -121,6 +125,11 @@ class Pool:
     def busy(self) -> int:
         """Workers that are not free: they answer, or start."""
         return self._size - self._idle.qsize()
+
+    @property
+    def snapshots(self) -> set[str]:
+        """The folders that workers have open."""
+        return {worker.snapshot for worker in self._all if worker.snapshot}
 
     @property
     def processes(self) -> list[int]:
@@ -141,12 +150,18 @@ class Pool:
         await asyncio.gather(*(worker.kill() for worker in self._all))
         self._all.clear()
 
-    async def ask(self, request: dict[str, Any], seconds: float) -> Reply:
+    async def ask(
+        self,
+        request: dict[str, Any],
+        seconds: float,
+        snapshot: Callable[[], Awaitable[str]] | None = None,
+    ) -> Reply:
         """Let a worker answer.
 
         Args:
             request: what `reader` takes.
             seconds: the time limit, from when a worker is there.
+            snapshot: makes the snapshot to read, once a worker is there to hold it.
 
         Raises:
             BusyError: no worker came free in time, or too many wait already.
@@ -154,6 +169,13 @@ class Pool:
             CrashError: the worker ended by itself.
         """
         worker = await self._get()
+        if snapshot is not None:
+            try:
+                request = {**request, "snapshot": await snapshot()}
+            except BaseException:
+                self._idle.put_nowait(worker)
+                raise
+            worker.snapshot = request["snapshot"]  # nothing can happen in between
         try:
             async with asyncio.timeout(seconds):
                 reply = await worker.ask({**request, "seconds": seconds})
@@ -183,7 +205,7 @@ class Pool:
     async def _add(self) -> None:
         self._started += 1
         file = self._spool / f"{self._started}.result"
-        worker = await Worker.start(self._store, file, self._memory)
+        worker = await Worker.start(file, self._memory)
         self._all.add(worker)
         self._idle.put_nowait(worker)
 

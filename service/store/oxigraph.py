@@ -25,6 +25,7 @@ from symboslam.service.store._base import (
     Store,
 )
 from symboslam.service.store.documents import parse, place_and_problem
+from symboslam.service.store.snapshots import Snapshots
 from symboslam.service.workers import Pool
 
 if TYPE_CHECKING:
@@ -55,8 +56,10 @@ class OxigraphStore(Store):
             self._store: pyoxigraph.Store | None = pyoxigraph.Store(folder)
         except OSError as error:
             raise StoreError(_opening(settings.data, error)) from error
+        self._snapshots = Snapshots(
+            settings.data.resolve() / "snapshots", self._backup, lambda: self._pool.snapshots
+        )
         self._pool = Pool(
-            folder.resolve(),
             (settings.data / "spool").resolve(),
             size=settings.workers,
             memory=settings.worker_memory,
@@ -91,6 +94,7 @@ class OxigraphStore(Store):
     async def start(self) -> None:
         """Start the workers."""
         try:
+            await asyncio.to_thread(self._snapshots.clear)
             await self._pool.start()
         except OSError as error:
             raise StoreError(f"the query workers cannot be started: {error}") from error
@@ -98,6 +102,7 @@ class OxigraphStore(Store):
     async def stop(self) -> None:
         """Kill the workers, wait for a running update, and close."""
         await self._pool.stop()
+        await asyncio.to_thread(self._snapshots.clear)
         async with self._writing:
             if self._store is not None:
                 await asyncio.to_thread(self._store.flush)
@@ -128,7 +133,7 @@ class OxigraphStore(Store):
         A worker tries it first on an empty store: what is nested so deeply that it ends the
         process ends that one. An update that takes long holds up other writers, not queries.
         """
-        await self._ask({"kind": "rehearse", "text": text, "base": base}, False)
+        await self._ask({"kind": "rehearse", "text": text, "base": base}, False, reads=False)
 
         def write() -> None:
             try:
@@ -232,17 +237,23 @@ class OxigraphStore(Store):
             finally:
                 self._generation += 1
 
-    async def _ask(self, request: dict[str, Any], gzip: bool) -> Answer:
-        limits = {"limit": self._settings.max_result_bytes, "gzip": gzip, "version": self.version}
+    def _backup(self, folder: str) -> None:
+        self._open.backup(folder)
+
+    async def _ask(self, request: dict[str, Any], gzip: bool, *, reads: bool = True) -> Answer:
+        limit = self._settings.max_result_bytes
         try:
-            reply = await self._pool.ask({**request, **limits}, self._settings.query_seconds)
+            reply = await self._pool.ask(
+                {**request, "limit": limit, "gzip": gzip},
+                self._settings.query_seconds,
+                (lambda: self._snapshots.at(self._generation)) if reads else None,
+            )
         except CrashError as error:
             problem = "it needs too much memory or is nested too deeply; its process was ended"
             raise CrashError(problem) from error
         if "error" in reply.head:
-            _fail(reply.head, request, self._settings.max_result_bytes)
-        head = reply.head
-        return Answer(head["media_type"], head["size"], reply.body, gzip)
+            _fail(reply.head, request, limit)
+        return Answer(reply.head["media_type"], reply.head["size"], reply.body, gzip)
 
 
 def _fail(reply: dict[str, Any], request: dict[str, Any], limit: int) -> NoReturn:

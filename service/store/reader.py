@@ -1,9 +1,9 @@
 """A process that answers queries for the server, one at a time, and that the server may kill.
 
-``python -m symboslam.service.store.reader PATH MEMORY`` reads requests from its standard input and
+``python -m symboslam.service.store.reader MEMORY`` reads requests from its standard input and
 writes replies to its standard output. Each is a JSON object in a line, a reply followed by as many
-bytes as its ``size`` says unless they are in the file that the request names. The process keeps a
-read-only store and opens it anew when a request names another version.
+bytes as its ``size`` says unless they are in the file that the request names. What it reads is a
+snapshot of the store, which nobody writes to.
 """
 
 from __future__ import annotations
@@ -15,7 +15,6 @@ import os
 import signal
 import sys
 import threading
-import time
 from typing import IO, Any, cast
 
 import pyoxigraph
@@ -25,7 +24,6 @@ from symboslam.service.vocabulary import PREFIXES, SOLUTIONS, TRIPLES
 
 INLINE = 256 * 1024
 """Larger results go through a file."""
-_ATTEMPTS = 8
 _SMALL_STACK = 2 * 1024 * 1024
 _OVERTIME = 5  # seconds; the server kills sooner, unless it was killed itself
 _WITH_PREFIXES = ("TURTLE", "TRIG", "RDF_XML")
@@ -121,46 +119,30 @@ class Sink:
 
 
 class Reader:
-    """A read-only store that follows the one that writes.
+    """The snapshot that was asked for last, kept open."""
 
-    Args:
-        path: the folder of the store.
-    """
-
-    def __init__(self, path: str) -> None:
-        self._path = path
+    def __init__(self) -> None:
         self._store: pyoxigraph.Store | None = None
-        self._version = ""
+        self._path = ""
 
-    def at(self, version: str) -> pyoxigraph.Store:
-        """The store as it is at a version, or later.
+    def at(self, path: str) -> pyoxigraph.Store:
+        """The snapshot in a folder.
 
-        Opening may meet a file that the writer has just replaced; the next attempt finds the new.
+        Raises:
+            OSError: it cannot be opened.
         """
-        if self._store is None or version != self._version:
-            self._store = None
-            for attempt in range(_ATTEMPTS):
-                try:
-                    self._store = pyoxigraph.Store.read_only(self._path)
-                    break
-                except OSError:
-                    if attempt == _ATTEMPTS - 1:
-                        raise
-                    time.sleep(0.01 * 2**attempt)
-            self._version = version
-        assert self._store is not None
+        if self._store is None or path != self._path:
+            self._store = None  # closes the other one
+            self._store = pyoxigraph.Store.read_only(path)
+            self._path = path
         return self._store
-
-    def forget(self) -> None:
-        """Open anew next time."""
-        self._store = None
 
 
 def answer(reader: Reader, request: dict[str, Any], sink: IO[bytes]) -> dict[str, Any]:
     """Carry out a request; the reply says ``media_type`` or ``error``."""
     if request["kind"] == "rehearse":
         return _rehearse(request)
-    store = reader.at(request["version"])
+    store = reader.at(request["snapshot"])
     if request["kind"] == "graph":
         return _graph(store, request, sink)
     return _query(store, request, sink)
@@ -256,7 +238,8 @@ def handle(reader: Reader, request: dict[str, Any]) -> tuple[dict[str, Any], byt
         elif isinstance(error, MemoryError):
             reply = {"error": "memory"}
         else:
-            kind = "store" if isinstance(error, OSError) else "failed"
+            of_the_store = isinstance(error, OSError) or "IO error" in str(error)
+            kind = "store" if of_the_store else "failed"
             reply = {"error": kind, "detail": str(error)}
     sink.kept.discard()
     return reply, b""
@@ -264,19 +247,15 @@ def handle(reader: Reader, request: dict[str, Any]) -> tuple[dict[str, Any], byt
 
 def main() -> None:
     """Answer requests until there are no more."""
-    path, memory = sys.argv[1], int(sys.argv[2])
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the server, which ends us
-    _limit_memory(memory)
-    reader = Reader(path)
+    _limit_memory(int(sys.argv[1]))
+    reader = Reader()
     source, target = sys.stdin.buffer, sys.stdout.buffer
     for line in source:
         request = json.loads(line)
         if hasattr(signal, "alarm"):
             signal.alarm(int(request["seconds"]) + _OVERTIME)  # ends us, whatever we are in
         reply, content = handle(reader, request)
-        if reply.get("error") == "store":  # a file that the writer has replaced meanwhile
-            reader.forget()
-            reply, content = handle(reader, request)
         if hasattr(signal, "alarm"):
             signal.alarm(0)
         target.write(json.dumps(reply).encode() + b"\n" + content)
