@@ -28,8 +28,8 @@ CODE = ("src", "engine", "reasoning", "ontology", "service", "sim_bridge", "comp
 
 # Too slow to load before they are needed.
 HEAVY = {
-    "matplotlib", "networkx", "osmium", "owlready2", "pandas", "pyproj", "pyshacl", "rdflib",
-    "scipy", "shapely",
+    "fastapi", "httpx", "matplotlib", "networkx", "osmium", "owlready2", "pandas", "pydantic",
+    "pyoxigraph", "pyproj", "pyshacl", "rdflib", "scipy", "shapely", "starlette", "uvicorn",
 }  # fmt: skip
 
 
