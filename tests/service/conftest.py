@@ -63,7 +63,7 @@ class Service:
 def running(**given: Any) -> Iterator[Service]:
     """A service with some settings."""
     app = create_app(Settings(**given))
-    with socket.socket() as listening:
+    with socket.socket(proto=socket.IPPROTO_TCP) as listening:
         listening.bind(("127.0.0.1", 0))
         url = f"http://127.0.0.1:{listening.getsockname()[1]}"
         server = uvicorn.Server(uvicorn.Config(app, log_level="critical", lifespan="on"))

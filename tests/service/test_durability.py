@@ -2,6 +2,7 @@
 
 import os
 import signal
+import socket
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -11,6 +12,7 @@ from pathlib import Path
 import httpx
 import pytest
 
+from symboslam.cli.serve import listen
 from tests.service.conftest import ADMIN, TOKEN, UPDATE, MakeService, Service, running
 
 COUNT = {"query": "SELECT (COUNT(*) AS ?n) { GRAPH ?g { ?s <urn:p> ?o } }"}
@@ -141,3 +143,9 @@ def test_the_ontology_is_put_there_once(tmp_path: Path) -> None:
     assert [writes(), writes()] == [2, 0]
     (tmp_path / "ontology.sha256").unlink()
     assert writes() == 2
+
+
+def test_small_packets_are_sent_at_once() -> None:
+    """Else every response waits 40 ms: asyncio switches Nagle's algorithm off for TCP only."""
+    with listen("127.0.0.1", 0) as listening:
+        assert listening.proto == socket.IPPROTO_TCP

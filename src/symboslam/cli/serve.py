@@ -50,7 +50,7 @@ def serve(
     except ImportError as error:
         raise MissingExtraError(error.name or "fastapi", "service") from error
     settings = _settings(data)
-    listening = _listen(host, port)
+    listening = listen(host, port)
     with listening:
         _run(settings, listening, open_)
 
@@ -69,10 +69,17 @@ def _settings(data: Path | None) -> Settings:
         raise InputError(f"{name}: {first['msg']}") from error
 
 
-def _listen(host: str, port: int) -> socket.socket:
+def listen(host: str, port: int) -> socket.socket:
+    """A socket at an address, not listening yet.
+
+    Raises:
+        InputError: it cannot be had.
+    """
     try:
-        kind, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0::4]
-        listening = socket.socket(kind, socket.SOCK_STREAM)
+        found = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)
+        kind, _, protocol, _, address = found[0]
+        # asyncio sends small packets at once only where the socket says that it is TCP.
+        listening = socket.socket(kind, socket.SOCK_STREAM, protocol or socket.IPPROTO_TCP)
         listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             listening.bind(address)
