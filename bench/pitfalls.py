@@ -29,7 +29,7 @@ def pitfalls(sizes: Sequence[int], repeat: int = 3) -> str:
         for path in (path for path in REAL if path.is_file()):
             run = _scan(repeat, str(path), "--imports", "ignore")
             rows.append([f"`{path.name}`", _triples(path), *_figures(run), ""])
-        run = _scan(repeat)
+        run = _scan(repeat, "https://w3id.org/symboslam/symboslam")
         rows.append(["our ontology, all modules", "", *_figures(run), ""])
         for size in sizes:
             path = Path(folder) / f"{size}.ttl"
