@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import codecs
 import json
+import logging
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from itertools import count
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
@@ -49,6 +52,18 @@ _EXPANSION_FACTOR, _EXPANSION_FREE = 10, 1_000_000
 _DEEPEST = 100  # levels of an expression
 
 
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Keep rdflib from writing tracebacks about odd values to standard error."""
+    logger = logging.getLogger("rdflib.term")
+    before, logger.disabled = logger.disabled, True
+    try:
+        yield
+    finally:
+        logger.disabled = before
+
+
+@_quiet()
 def parse(name: str, data: bytes) -> LocatedGraph:
     """The graph of an ontology file, with the line of each triple where the format has lines.
 
@@ -85,7 +100,7 @@ def parse(name: str, data: bytes) -> LocatedGraph:
     except OntologySyntaxError:
         raise
     except RecursionError:
-        raise _error(name, None, "it is nested too deeply") from None
+        raise _error(name, graph.line, "it is nested too deeply") from None
     except UnicodeDecodeError as error:
         line = error.object[: error.start].count(b"\n") + 1
         raise _error(name, line, "it is not UTF-8 text") from error
@@ -233,24 +248,29 @@ def _refuse_remote_contexts(name: str, node: Any) -> None:
             _refuse_remote_contexts(name, item)
 
 
-def _refuse_bad_iris(name: str, graph: Graph) -> None:
+def _refuse_bad_iris(name: str, graph: LocatedGraph) -> None:
     """Refuse IRIs with characters that none may have; they could not be written again."""
     from rdflib import URIRef
 
     for triple in graph:
         for term in triple:
             if isinstance(term, URIRef) and any(c in '<>" {}|\\^`' or c < "!" for c in term):
-                raise _error(name, None, f"<{term}> is not an IRI")
+                shown = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in term)
+                raise _error(name, graph.lines.get(triple), f"<{shown}> is not an IRI")
 
 
 def _refuse_endless(name: str, graph: Graph) -> None:
-    """Refuse anonymous expressions that contain themselves or are nested beyond all reason."""
-    from rdflib import RDF, BNode
+    """Refuse anonymous expressions that contain themselves or are nested beyond all reason.
 
+    Anonymous individuals may be linked in circles; only what makes up expressions counts.
+    """
+    from rdflib import OWL, RDF, BNode
+
+    parts = (str(OWL), str(RDF.first), str(RDF.rest))
     inside: dict[BNode, list[tuple[BNode, int]]] = {}
     holders: dict[BNode, int] = {}
     for s, p, o in graph:
-        if isinstance(s, BNode) and isinstance(o, BNode):
+        if isinstance(s, BNode) and isinstance(o, BNode) and str(p).startswith(parts):
             inside.setdefault(s, []).append((o, 0 if p == RDF.rest else 1))
             holders[o] = holders.get(o, 0) + 1
     depth = dict.fromkeys(inside.keys() - holders.keys(), 0)

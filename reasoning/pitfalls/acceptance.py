@@ -8,7 +8,8 @@ the whole file that declares it. Without a reason it has no effect.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from rdflib import OWL, RDF, URIRef
@@ -39,6 +40,10 @@ class _Acceptance:
         return self.variant or self.code
 
 
+_Key = tuple[str, str | Triple | Place]
+"""Code and what it is accepted for."""
+
+
 class Acceptances:
     """All that an ontology accepts."""
 
@@ -51,7 +56,23 @@ class Acceptances:
             for value in values:
                 place = ontology.place((subject, URIRef(ACCEPTED_PITFALL), value))
                 self._read(subject, str(value), place or Place("", None))
-        self._all.sort(key=lambda a: (a.where.file, a.where.line or 0, a.code, a.reason))
+        self._all.sort(key=lambda a: (a.where.file, a.where.line or 0, a.form, a.reason))
+        self._by: dict[_Key, list[_Acceptance]] = defaultdict(list)
+        for acceptance in self._all:
+            for scope in self._scopes(acceptance):
+                self._by[acceptance.code, scope].append(acceptance)
+
+    def _scopes(self, acceptance: _Acceptance) -> Iterator[str | Triple | Place]:
+        """What an acceptance holds for: an axiom, the files of an ontology, or a term."""
+        ontology = (acceptance.subject, RDF.type, OWL.Ontology)
+        if acceptance.axiom:
+            yield acceptance.axiom
+        elif ontology in self._ontology.graph:
+            for document in self._ontology.documents:
+                if ontology in document.graph:
+                    yield Place(document.name, None)
+        else:
+            yield str(acceptance.subject)
 
     def _read(self, subject: Node, value: str, where: Place) -> None:
         found = _VALUE.fullmatch(value)
@@ -84,21 +105,18 @@ class Acceptances:
         return replace(result, occurrences=occurrences)
 
     def _one(self, code: str, occurrence: Occurrence) -> Occurrence:
-        fitting = [a for a in self._all if a.code == code and self._covers(a, occurrence)]
+        finding = occurrence.finding
+        keys: list[_Key] = [(code, element) for element in finding.elements]
+        keys += [(code, axiom) for axiom in finding.axioms]
+        keys.append((code, Place(occurrence.place.file, None)))
+        fitting = [
+            acceptance
+            for key in keys
+            for acceptance in self._by.get(key, ())
+            if acceptance.variant in ("", finding.variant)
+        ]
         self._used.update(fitting)
         return replace(occurrence, accepted=fitting[0].reason) if fitting else occurrence
-
-    def _covers(self, acceptance: _Acceptance, occurrence: Occurrence) -> bool:
-        finding = occurrence.finding
-        if acceptance.variant and acceptance.variant != finding.variant:
-            return False
-        if acceptance.axiom:
-            return acceptance.axiom in finding.axioms
-        ontology = (acceptance.subject, RDF.type, OWL.Ontology)
-        if ontology in self._ontology.graph:
-            files = {d.name for d in self._ontology.documents if ontology in d.graph}
-            return occurrence.place.file in files
-        return str(acceptance.subject) in finding.elements
 
     def notes(self, results: Iterable[Result], strict_oops: bool = False) -> list[str]:
         """Acceptances in given files without a reason, and such as accept what is not there.

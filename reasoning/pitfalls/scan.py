@@ -13,7 +13,6 @@ from types import FrameType
 from rdflib import OWL, RDF, RDFS, URIRef
 
 from symboslam.errors import InputError, OntologyError, SymboSlamError
-from symboslam.reasoning.axioms import Axiom
 from symboslam.reasoning.pitfalls.acceptance import Acceptances
 from symboslam.reasoning.pitfalls.model import (
     NOT_SELECTED,
@@ -78,8 +77,8 @@ def scan_pitfalls(
                 f"reading took longer than the time limit of {settings.seconds:g} s "
                 "(--seconds raises it)"
             ) from None
+        accepted = Acceptances(ontology)
         results = list(_run(ontology, settings, codes, progress))
-    accepted = Acceptances(ontology)
     results = [accepted.apply(result) for result in results]
     return Report(
         ontology=ontology.iri,
@@ -188,15 +187,8 @@ def _locate(ontology: Ontology, finding: Finding, everywhere: bool) -> Occurrenc
     elif not here and places and not everywhere:
         return None
     place = next(iter(here or places), _head(ontology))
-    text = _axiom_text(ontology, finding)
+    text = ontology.text(finding.axioms[0]) if finding.axioms else ""
     return Occurrence(finding, first or ontology.iri, place, text)
-
-
-def _axiom_text(ontology: Ontology, finding: Finding) -> str:
-    if not finding.axioms:
-        return ""
-    s, p, o = finding.axioms[0]
-    return ontology.words.axiom(Axiom(s, p, o, frozenset(), ontology.graph))
 
 
 def _head(ontology: Ontology) -> Place:

@@ -234,9 +234,28 @@ def test_deep_json() -> None:
 
 
 def test_deep_chain_of_triples() -> None:
-    lines = (b"_:n%d <urn:p> _:n%d ." % (i, i + 1) for i in range(5000))
+    step = b"_:n%d <http://www.w3.org/2002/07/owl#complementOf> _:n%d ."
+    lines = (step % (i, i + 1) for i in range(5000))
     with pytest.raises(OntologySyntaxError, match="nested too deeply"):
         parse("a.nt", b"\n".join(lines))
+
+
+def test_anonymous_individuals_may_be_linked_as_they_like() -> None:
+    lines = (b"_:n%d <urn:p> _:n%d ." % (i, i + 1) for i in range(5000))
+    assert len(parse("a.nt", b"\n".join(lines))) == 5000
+    data = PREFIXES + b"_:a :knows _:b . _:b :knows _:a . _:c :knows _:c ."
+    assert len(parse("a.ttl", data)) == 3
+
+
+def test_odd_values_are_kept_in_silence(capfd: pytest.CaptureFixture[str]) -> None:
+    data = PREFIXES + b':a :p "2020-13-45"^^<http://www.w3.org/2001/XMLSchema#date> , "x" .'
+    assert len(parse("a.ttl", data)) == 2
+    assert capfd.readouterr() == ("", "")
+
+
+def test_the_line_of_what_is_no_iri() -> None:
+    with pytest.raises(OntologySyntaxError, match=r"line 7: .* is not an IRI"):
+        parse("a.ttl", PREFIXES + b"\n:a\n  :p <urn:a\x01b> .")
 
 
 def test_long_lists_are_fine() -> None:
