@@ -33,8 +33,11 @@ PITFALL = Pitfall(
 def check(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
     """IRIs of the ontologies in given files at which there is neither RDF nor HTML.
 
+    If some IRIs could not be asked, every message about the others ends with that.
+
     Raises:
-        NotCheckedError: the network may not be asked, or does not answer.
+        NotCheckedError: the network may not be asked, or an IRI could not be asked and nothing is
+            wrong with the others.
     """
     require(settings)
     iris = sorted(
@@ -59,7 +62,7 @@ def check(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
     for problem in missing:
         message = f"neither the ontology nor a page about it is at <{problem.iri}>"
         message += f": {problem.problem}" if problem.problem else ""
-        message += f" ({unasked})" if unasked else ""
+        message += f" (not everything was checked: {unasked})" if unasked else ""
         yield Finding((), message, ((URIRef(problem.iri), RDF.type, OWL.Ontology),))
 
 
