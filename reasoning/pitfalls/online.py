@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import socket
 import time
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
 from http.client import HTTPException
@@ -69,6 +70,7 @@ class Answer:
         problem: why there was none.
         final: the problem will not go away by itself: no such page, no such host.
         status: of HTTP, where the problem is one; 0 otherwise.
+        heard: a server answered something, so that others of its pages may be asked for.
     """
 
     iri: str
@@ -77,6 +79,7 @@ class Answer:
     problem: str = ""
     final: bool = False
     status: int = 0
+    heard: bool = True
 
     @property
     def outcome(self) -> str:
@@ -126,6 +129,18 @@ def require(settings: Settings) -> None:
         raise NotCheckedError("needs the network: --online")
 
 
+def gaps(silent: Iterable[tuple[str, str]]) -> str:
+    """What could not be told, by reason: ``<a>, <b> could not be asked: 503; <c> ...``.
+
+    Args:
+        silent: what was asked, and what came of it.
+    """
+    by_reason: dict[str, list[str]] = {}
+    for asked, reason in silent:
+        by_reason.setdefault(reason, []).append(asked)
+    return "; ".join(f"{', '.join(asked)} {reason}" for reason, asked in by_reason.items())
+
+
 def fetch(iri: str, accept: str) -> Answer:
     """What is at an IRI; whatever goes wrong is in the answer.
 
@@ -164,16 +179,18 @@ def fetch(iri: str, accept: str) -> Answer:
 def _failure(iri: str, reason: Any) -> Answer:
     """No answer at all; final if the host refuses to speak, or is not known but others are."""
     if isinstance(reason, TimeoutError):
-        return Answer(iri, problem=f"no answer within {SECONDS:g} s")
+        return Answer(iri, problem=f"no answer within {SECONDS:g} s", heard=False)
     text = str(getattr(reason, "strerror", None) or reason or type(reason).__name__)
     unknown = isinstance(reason, socket.gaierror) and reason.errno == socket.EAI_NONAME
     if not (unknown or isinstance(reason, ConnectionRefusedError)):
-        return Answer(iri, problem=text)
+        return Answer(iri, problem=text, heard=False)
     if _has_proxy(iri):
-        return Answer(iri, problem=f"{text} (there is a proxy, which may be what failed)")
+        text += ", which may concern the proxy"
+        return Answer(iri, problem=text, heard=False)
     if unknown and not _names_are_found():
-        return Answer(iri, problem=f"{text} (nor is {WELL_KNOWN} found: is there a network?)")
-    return Answer(iri, problem=text, final=True)
+        text += f", and {WELL_KNOWN} is not found either"
+        return Answer(iri, problem=text, heard=False)
+    return Answer(iri, problem=text, final=True, heard=False)
 
 
 @cache

@@ -67,7 +67,7 @@ class Ontology:
     ) -> None:
         self.sources, self.graph = sources, sources.graph
         self.documents, self.unread = list(documents), unread
-        self.words = Words(self.graph)
+        self.words = Words(self.graph, limit=30)
         self._texts: dict[Triple, str] = {}
         index: dict[Node, dict[Node, list[Node]]] = defaultdict(lambda: defaultdict(list))
         for s, p, o in self.graph:

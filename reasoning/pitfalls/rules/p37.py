@@ -13,7 +13,7 @@ from symboslam.reasoning.pitfalls.model import (
     Settings,
     Severity,
 )
-from symboslam.reasoning.pitfalls.online import HTML, Answer, fetch, require
+from symboslam.reasoning.pitfalls.online import HTML, Answer, fetch, gaps, require
 from symboslam.reasoning.pitfalls.online import RDF as DATA
 from symboslam.reasoning.pitfalls.ontology import Ontology
 
@@ -33,7 +33,7 @@ PITFALL = Pitfall(
 def check(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
     """IRIs of the ontologies in given files at which there is neither RDF nor HTML.
 
-    If some IRIs could not be asked, every message about the others ends with that.
+    If some IRIs could not be asked, the findings are kept, and every message ends with them.
 
     Raises:
         NotCheckedError: the network may not be asked, or an IRI could not be asked and nothing is
@@ -56,7 +56,7 @@ def check(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
     for iri in iris:
         if (problem := _problem(iri)) is not None:
             (missing if problem.final else silent).append(problem)
-    unasked = "; ".join(f"<{p.iri}> could not be asked: {p.problem}" for p in silent)
+    unasked = gaps((f"<{p.iri}>", f"could not be asked: {p.problem}") for p in silent)
     if unasked and not missing:
         raise NotCheckedError(unasked)
     for problem in missing:
