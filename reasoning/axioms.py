@@ -160,10 +160,17 @@ class Words:
     Args:
         graph: holds the expressions.
         name: how a class or property is called; its local name by default.
+        limit: parts after which a text is cut short: the rest of a list is counted ("A, B and 97
+            more"), deeper expressions are "...". All is said by default. The graph must stay as it
+            is, for lists are counted once.
     """
 
-    def __init__(self, graph: Graph, name: Callable[[str], str] = local_name) -> None:
-        self.graph, self.name = graph, name
+    def __init__(
+        self, graph: Graph, name: Callable[[str], str] = local_name, limit: int | None = None
+    ) -> None:
+        self.graph, self.name, self.limit = graph, name, limit
+        self._left = 0
+        self._counted: dict[Node, tuple[list[Node], int]] = {}
 
     def members(self, node: Node | None) -> list[Node]:
         """The items of an RDF list; a list that leads back to itself ends there."""
@@ -177,24 +184,49 @@ class Words:
 
     def expression(self, node: Node) -> str:
         """A class expression, such as ``Feature and indicates some Residential``."""
+        self._left = self.limit or 0
+        return self._say(node)
+
+    def _listed(self, node: Node, separator: str, say: Callable[[Node], str]) -> str:
+        """The items of a list in words; the rest is counted where the limit is reached."""
+        if self.limit is None:
+            return separator.join(map(say, self.members(node)))
+        if node not in self._counted:
+            members = self.members(node)
+            self._counted[node] = members[: self.limit], len(members)
+        members, number = self._counted[node]
+        said: list[str] = []
+        for member in members:
+            if self._left <= 0:
+                break
+            said.append(say(member))
+        if len(said) == number:
+            return separator.join(said)
+        last = " and " if separator == ", " else separator
+        return last.join(filter(None, (separator.join(said), f"{number - len(said)} more")))
+
+    def _say(self, node: Node) -> str:
+        self._left -= 1
         if not isinstance(node, BNode):
             return self.name(str(node)) if isinstance(node, URIRef) else str(node)
+        if self.limit is not None and self._left < 0:
+            return "..."
         value = self.graph.value
         for connective, word in ((OWL.intersectionOf, " and "), (OWL.unionOf, " or ")):
             if (members := value(node, connective)) is not None:
-                return word.join(self._inner(member) for member in self.members(members))
+                return self._listed(members, word, self._inner)
         if (negated := value(node, OWL.complementOf)) is not None:
             return f"not {self._inner(negated)}"
         if (single := value(node, OWL.oneOf)) is not None:
-            return "one of " + ", ".join(self.expression(m) for m in self.members(single))
+            return "one of " + self._listed(single, ", ", self._say)
         if (inverse := value(node, OWL.inverseOf)) is not None:
-            return f"inverse of {self.expression(inverse)}"
+            return f"inverse of {self._say(inverse)}"
         if (datatype := value(node, OWL.onDatatype)) is not None:
-            return f"{self.expression(datatype)} {self._facets(node)}"
+            return f"{self._say(datatype)} {self._facets(node)}"
         on = value(node, OWL.onProperty)
         if on is None:
             return "something"
-        where = self.expression(on)
+        where = self._say(on)
         for constraint, word in (
             (OWL.someValuesFrom, "some"), (OWL.allValuesFrom, "only"), (OWL.hasValue, "the"),
         ):  # fmt: skip
@@ -216,7 +248,7 @@ class Words:
         return " and ".join(sorted(found))
 
     def _inner(self, node: Node) -> str:
-        text = self.expression(node)
+        text = self._say(node)
         return f"({text})" if " " in text and isinstance(node, BNode) else text
 
     def _denial(self, node: Node) -> str:
@@ -224,28 +256,28 @@ class Words:
         value = self.graph.value
         target = value(node, OWL.targetIndividual) or value(node, OWL.targetValue)
         parts = (value(node, OWL.sourceIndividual), value(node, OWL.assertionProperty), target)
-        one, along, other = ("something" if n is None else self.expression(n) for n in parts)
+        one, along, other = ("something" if n is None else self._say(n) for n in parts)
         return f"it is not so that {one} {along} {other}"
 
     def axiom(self, axiom: Axiom) -> str:
         """An axiom as a short sentence."""
         s, p, o = axiom.subject, axiom.predicate, axiom.object
-        say = self.expression
+        self._left = self.limit or 0
+        say = self._say
         if p == RDF.type and o in _CHARACTERISTICS:
             return f"{say(s)} {_CHARACTERISTICS[o]}"
         if p == RDF.type and o in _BLOCKS:
             listed = self.graph.value(s, OWL.members) or self.graph.value(s, OWL.distinctMembers)
-            names = ", ".join(say(member) for member in self.members(listed))
             if o == OWL.NegativePropertyAssertion:
                 return self._denial(s)
+            names = "" if listed is None else self._listed(listed, ", ", say)
             return f"{names} are {'all different' if o == OWL.AllDifferent else 'disjoint'}"
         if p == OWL.propertyChainAxiom:
-            chain = " of ".join(say(member) for member in self.members(o))
-            return f"{chain} implies {say(s)}"
+            return f"{self._listed(o, ' of ', say)} implies {say(s)}"
         if p == OWL.hasKey:
-            return f"{say(s)} is told apart by {', '.join(map(say, self.members(o)))}"
+            return f"{say(s)} is told apart by {self._listed(o, ', ', say)}"
         if p == OWL.disjointUnionOf:
-            return f"{say(s)} is the disjoint union of {', '.join(map(say, self.members(o)))}"
+            return f"{say(s)} is the disjoint union of {self._listed(o, ', ', say)}"
         if p == RDFS.subClassOf and isinstance(o, BNode):
             is_restriction = (o, OWL.onProperty, None) in self.graph
             return f"every {say(s)} {'' if is_restriction else 'is '}{say(o)}"

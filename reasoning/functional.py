@@ -8,21 +8,16 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from rdflib import OWL, RDF, RDFS, XSD, BNode, Literal, URIRef
+from rdflib import RDF, XSD, Literal, URIRef
 from rdflib.term import Node
 
 from symboslam.reasoning.functional_axioms import Axioms
-from symboslam.reasoning.functional_expressions import Form, FunctionalSyntaxError
+from symboslam.reasoning.functional_expressions import DEEPEST, Form, FormError, Names
 
 if TYPE_CHECKING:
     from symboslam.reasoning.located import LocatedGraph
 
-__all__ = ["FunctionalSyntaxError", "parse_functional"]
-
-_DEEPEST = 100  # parentheses inside of each other
-_TEXT = (XSD.string, RDF.PlainLiteral)
-_LANGUAGE = re.compile("[A-Za-z]+(-[A-Za-z0-9]+)*")
-_STANDARD = {"owl": str(OWL), "rdf": str(RDF), "rdfs": str(RDFS), "xsd": str(XSD)}
+__all__ = ["parse_functional"]
 
 # A name and its parenthesis are one token; words with a colon are terms: HasKey(:A (:p) ()).
 _TOKEN = re.compile(
@@ -41,17 +36,17 @@ def parse_functional(graph: LocatedGraph, data: bytes) -> None:
     The line of a triple is that on which its axiom begins.
 
     Raises:
-        FunctionalSyntaxError: it does not parse.
+        FormError: it does not parse.
         UnicodeDecodeError: it is not UTF-8.
     """
     reader = _Reader(data.decode())
-    for prefix, namespace in reader.prefixes.items():
+    for prefix, namespace in reader.names.prefixes.items():
         graph.bind(prefix, namespace)
     ontologies = [form for form in reader.forms if form.name == "Ontology"]
     if len(ontologies) != 1:
         line = ontologies[1].line if ontologies else None
         problem = "there is a second Ontology(...)" if ontologies else "there is no Ontology(...)"
-        raise FunctionalSyntaxError(line, problem + " in it")
+        raise FormError(line, problem + " in it")
     Axioms(graph).ontology(ontologies[0])
 
 
@@ -60,19 +55,18 @@ class _Reader:
 
     Attributes:
         forms: the outermost ones.
-        prefixes: the declared prefixes -> namespace.
+        names: the prefixes and anonymous individuals.
     """
 
     def __init__(self, text: str) -> None:
         self.forms: list[Form] = []
-        self.prefixes: dict[str, str] = {}
+        self.names = Names()
         self._line = 1
-        self._anonymous: dict[str, BNode] = {}
         self._open: list[Form] = []
         self._read(text)
 
-    def _error(self, problem: str) -> FunctionalSyntaxError:
-        return FunctionalSyntaxError(self._line, problem)
+    def _error(self, problem: str) -> FormError:
+        return FormError(self._line, problem)
 
     def _read(self, text: str) -> None:
         counted = 0
@@ -101,7 +95,7 @@ class _Reader:
             raise self._error("the file ends in the middle of something: a ) is missing")
 
     def _enter(self, form: Form) -> None:
-        if len(self._open) == _DEEPEST:
+        if len(self._open) == DEEPEST:
             raise self._error("it is nested too deeply")
         if self._open:
             self._open[-1].arguments.append(form)
@@ -120,7 +114,7 @@ class _Reader:
             declared = "".join(map(str, words))  # "x:=" or "x:" "="
             if not (isinstance(namespace, URIRef) and declared.endswith(":=")):
                 raise self._error("a prefix is declared so: Prefix(name:=<namespace>)")
-            self.prefixes[declared[:-2]] = str(namespace)
+            self.names.prefixes[declared[:-2]] = str(namespace)
 
     def _add(self, item: Node | str) -> None:
         if not self._open:
@@ -133,29 +127,18 @@ class _Reader:
         if ":" not in word or not self._open or self._open[0].name == "Prefix":
             return word
         if word.startswith("_:"):
-            return self._anonymous.setdefault(word, BNode())
-        return self._short(word)
-
-    def _short(self, word: str) -> URIRef:
-        prefix, colon, rest = word.partition(":")
-        namespace = self.prefixes.get(prefix, _STANDARD.get(prefix))
-        if not colon:
-            raise self._error(f"{word!r} is no name: a prefix is missing")
-        if namespace is None:
-            raise self._error(f"the prefix {prefix}: is not declared")
-        return URIRef(namespace + rest)
+            return self.names.anonymous(word)
+        return self.names.short(word, self._line)
 
     def _literal(self, found: re.Match[str]) -> Literal:
         text = re.sub(r"\\(.)", r"\1", found["text"], flags=re.DOTALL)
         language, datatype = found["language"], XSD.string
         if found["short"]:
-            datatype = self._short(found["short"])
+            datatype = self.names.short(found["short"], self._line)
         elif found["type"]:
             datatype = URIRef(found["type"])
         if datatype == RDF.PlainLiteral:
             text, _, language = text.rpartition("@")
         if language:
-            if not _LANGUAGE.fullmatch(language):
-                raise self._error(f"{language!r} is no language")
-            return Literal(text, lang=language)
-        return Literal(text, datatype=None if datatype in _TEXT else datatype)
+            return self.names.tagged(text, language, self._line)
+        return self.names.typed(text, XSD.string if datatype == RDF.PlainLiteral else datatype)

@@ -1,4 +1,4 @@
-"""The axioms of functional syntax as RDF, by the W3C's "OWL 2 Mapping to RDF Graphs"."""
+"""Axioms as RDF, by the W3C's "OWL 2 Mapping to RDF Graphs"."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ class Axioms:
         """Add all that an ``Ontology(...)`` states (mapping, sections 2.1 to 2.3).
 
         Raises:
-            FunctionalSyntaxError: a part of it is not OWL.
+            FormError: a part of it is not OWL.
         """
         names: list[Node] = []
         rest = list(form.arguments)
@@ -159,7 +159,7 @@ class Axioms:
                 return [self._key(form)]
             case "SubObjectPropertyOf", [Form(name="ObjectPropertyChain") as chain, *rest]:
                 (whole,) = inside.terms(form.but(rest), "P")
-                steps = inside.terms(chain, "P", several=2)
+                steps = inside.terms(chain, "P", several=1)  # OWL wants two; pitfall P33
                 return [(whole, OWL.propertyChainAxiom, inside.seq(steps))]
             case "ObjectPropertyAssertion", [Form("ObjectInverseOf", _, [named]), source, target]:
                 form = form.but([named, target, source])

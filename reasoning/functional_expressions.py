@@ -1,4 +1,6 @@
-"""What stands inside the axioms of functional syntax, as RDF: expressions, terms, atoms of rules.
+"""What stands inside axioms, as RDF: expressions, terms, atoms of rules; names and literals.
+
+Here are the forms that the readers of functional syntax and of OWL/XML make.
 
 The tables are Table 1 of the W3C's "OWL 2 Mapping to RDF Graphs" (section 2.1). A letter in them
 says what an argument is:
@@ -24,6 +26,11 @@ if TYPE_CHECKING:
     from symboslam.reasoning.located import LocatedGraph
 
 SWRL = Namespace("http://www.w3.org/2003/11/swrl#")
+DEEPEST = 100
+"""Forms may be so many inside of each other."""
+
+_STANDARD = {"owl": str(OWL), "rdf": str(RDF), "rdfs": str(RDFS), "xsd": str(XSD)}
+_LANGUAGE = re.compile("[A-Za-z]+(-[A-Za-z0-9]+)*")
 
 # Type of the node, what the arguments are ("C+": one class or more, as a list), their predicates.
 _EXPRESSIONS: dict[str, tuple[URIRef, str, tuple[URIRef, ...]]] = {
@@ -72,7 +79,7 @@ _MEANINGS = {
 }  # fmt: skip
 
 
-class FunctionalSyntaxError(OntologySyntaxError):
+class FormError(OntologySyntaxError):
     """What is wrong in a document.
 
     Attributes:
@@ -97,12 +104,56 @@ class Form:
         """The same with other arguments."""
         return Form(self.name, self.line, list(arguments))
 
-    def error(self, problem: str) -> FunctionalSyntaxError:
+    def error(self, problem: str) -> FormError:
         """The error that this form is."""
-        return FunctionalSyntaxError(self.line, problem)
+        return FormError(self.line, problem)
 
 
 Argument = Form | Node | str
+
+
+class Names:
+    """What short names, anonymous individuals and literals mean in one document.
+
+    Attributes:
+        prefixes: the declared prefixes -> namespace; those of OWL 2 itself need no declaration.
+    """
+
+    def __init__(self) -> None:
+        self.prefixes: dict[str, str] = {}
+        self._anonymous: dict[str, BNode] = {}
+
+    def short(self, word: str, line: int) -> URIRef:
+        """The IRI of ``prefix:name``.
+
+        Raises:
+            FormError: the word has no prefix, or one that is not declared.
+        """
+        prefix, colon, rest = word.partition(":")
+        namespace = self.prefixes.get(prefix, _STANDARD.get(prefix))
+        if not colon:
+            raise FormError(line, f"{word!r} is no name: a prefix is missing")
+        if namespace is None:
+            raise FormError(line, f"the prefix {prefix}: is not declared")
+        return URIRef(namespace + rest)
+
+    def anonymous(self, name: str) -> BNode:
+        """The one node of that name; another in another document."""
+        return self._anonymous.setdefault(name, BNode())
+
+    def tagged(self, text: str, language: str, line: int) -> Literal:
+        """A text in a language.
+
+        Raises:
+            FormError: that is no language.
+        """
+        if not _LANGUAGE.fullmatch(language):
+            raise FormError(line, f"{language!r} is no language")
+        return Literal(text, lang=language)
+
+    def typed(self, text: str, datatype: URIRef) -> Literal:
+        """A literal without language; a text in RDF names no type."""
+        return Literal(text, datatype=None if datatype == XSD.string else datatype)
 
 
 class Expressions:
@@ -120,7 +171,7 @@ class Expressions:
             several: at least so many arguments are what the one letter says.
 
         Raises:
-            FunctionalSyntaxError: they are others, or more, or fewer.
+            FormError: they are others, or more, or fewer.
         """
         given = len(form.arguments)
         if several and given >= several:
@@ -201,10 +252,11 @@ class Expressions:
 
     def atoms(self, form: Form) -> Node:
         """The atoms of a rule's body or head, by the RDF syntax of the SWRL submission (2004)."""
-        found = [self._atom(a) for a in form.arguments if isinstance(a, Form)]
-        return self.seq(found, SWRL.AtomList)
+        return self.seq([self._atom(form, atom) for atom in form.arguments], SWRL.AtomList)
 
-    def _atom(self, form: Form) -> Node:
+    def _atom(self, around: Form, form: Argument) -> Node:
+        if not isinstance(form, Form):
+            raise around.error(f"an atom is expected in {around.name}, not {form}")
         if form.name == "BuiltInAtom":
             builtin, *values = self.terms(form, "R" + "A" * (len(form.arguments) - 1))
             parts = [builtin, self.seq(values)]

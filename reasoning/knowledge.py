@@ -149,8 +149,7 @@ class Knowledge:
         Args:
             source: None for the bundled ontology, or the OWL file or files of another one (Turtle,
                 RDF/XML, OWL/XML, functional syntax, N-Triples, JSON-LD).
-                ``docs/your-own-ontology.md`` says what it
-                must state.
+                ``docs/your-own-ontology.md`` says what it must state.
             cache: whether a stored result may be used and a new one is stored: the one in the
                 package, or those in the user's cache folder (``SYMBOSLAM_CACHE`` names another).
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import codecs
 import json
+import logging
 import re
-from itertools import count
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 from xml.parsers import expat
@@ -49,6 +51,18 @@ _EXPANSION_FACTOR, _EXPANSION_FREE = 10, 1_000_000
 _DEEPEST = 100  # levels of an expression
 
 
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Keep rdflib from writing tracebacks about odd values to standard error."""
+    logger = logging.getLogger("rdflib.term")
+    before, logger.disabled = logger.disabled, True
+    try:
+        yield
+    finally:
+        logger.disabled = before
+
+
+@_quiet()
 def parse(name: str, data: bytes) -> LocatedGraph:
     """The graph of an ontology file, with the line of each triple where the format has lines.
 
@@ -74,18 +88,16 @@ def parse(name: str, data: bytes) -> LocatedGraph:
                 "syntax, N-Triples or JSON-LD (Protégé and ROBOT can)",
             )
         base = f"file:///{PurePath(name).name.replace(' ', '%20')}"
-        if language == "owl/xml":
-            _parse_owl_xml(name, data, graph)
-        elif language == "json-ld":
+        if language == "json-ld":
             _parse_json_ld(name, data, base, graph)
-        elif language == "functional syntax":
-            _parse_functional(name, data, graph)
+        elif language in ("functional syntax", "owl/xml"):
+            _parse_structure(name, language, data, base, graph)
         else:
             (parse_turtle if language == "turtle" else parse_rdf_xml)(graph, data, base)
     except OntologySyntaxError:
         raise
     except RecursionError:
-        raise _error(name, None, "it is nested too deeply") from None
+        raise _error(name, graph.line, "it is nested too deeply") from None
     except UnicodeDecodeError as error:
         line = error.object[: error.start].count(b"\n") + 1
         raise _error(name, line, "it is not UTF-8 text") from error
@@ -186,12 +198,18 @@ def _xml_language(name: str, data: bytes) -> str:
     return "owl/xml" if root[0] == OWL_NAMESPACE + "Ontology" else "xml"
 
 
-def _parse_functional(name: str, data: bytes, graph: LocatedGraph) -> None:
-    from symboslam.reasoning.functional import FunctionalSyntaxError, parse_functional
+def _parse_structure(name: str, language: str, data: bytes, base: str, graph: LocatedGraph) -> None:
+    """Read a syntax of OWL's structure, and not of RDF."""
+    from symboslam.reasoning.functional import parse_functional
+    from symboslam.reasoning.functional_expressions import FormError
+    from symboslam.reasoning.owl_xml import parse_owl_xml
 
     try:
-        parse_functional(graph, data)
-    except FunctionalSyntaxError as error:
+        if language == "owl/xml":
+            parse_owl_xml(graph, data, base)
+        else:
+            parse_functional(graph, data)
+    except FormError as error:
         raise _error(name, error.line, error.problem) from error
 
 
@@ -233,24 +251,29 @@ def _refuse_remote_contexts(name: str, node: Any) -> None:
             _refuse_remote_contexts(name, item)
 
 
-def _refuse_bad_iris(name: str, graph: Graph) -> None:
+def _refuse_bad_iris(name: str, graph: LocatedGraph) -> None:
     """Refuse IRIs with characters that none may have; they could not be written again."""
     from rdflib import URIRef
 
     for triple in graph:
         for term in triple:
             if isinstance(term, URIRef) and any(c in '<>" {}|\\^`' or c < "!" for c in term):
-                raise _error(name, None, f"<{term}> is not an IRI")
+                shown = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in term)
+                raise _error(name, graph.lines.get(triple), f"<{shown}> is not an IRI")
 
 
 def _refuse_endless(name: str, graph: Graph) -> None:
-    """Refuse anonymous expressions that contain themselves or are nested beyond all reason."""
-    from rdflib import RDF, BNode
+    """Refuse anonymous expressions that contain themselves or are nested beyond all reason.
 
+    Anonymous individuals may be linked in circles; only what makes up expressions counts.
+    """
+    from rdflib import OWL, RDF, BNode
+
+    parts = (str(OWL), str(RDF.first), str(RDF.rest))
     inside: dict[BNode, list[tuple[BNode, int]]] = {}
     holders: dict[BNode, int] = {}
     for s, p, o in graph:
-        if isinstance(s, BNode) and isinstance(o, BNode):
+        if isinstance(s, BNode) and isinstance(o, BNode) and str(p).startswith(parts):
             inside.setdefault(s, []).append((o, 0 if p == RDF.rest else 1))
             holders[o] = holders.get(o, 0) + 1
     depth = dict.fromkeys(inside.keys() - holders.keys(), 0)
@@ -266,43 +289,3 @@ def _refuse_endless(name: str, graph: Graph) -> None:
         raise _error(name, None, "an anonymous expression contains itself")
     if max(depth.values(), default=0) > _DEEPEST:
         raise _error(name, None, "its expressions are nested too deeply")
-
-
-def _parse_owl_xml(name: str, data: bytes, graph: LocatedGraph) -> None:
-    """Read OWL/XML with owlready2's parser, which neither loads imports nor needs a world."""
-    from owlready2.base import OwlReadyOntologyParsingError
-    from owlready2.owlxml_2_ntriples import parse as parse_owl_xml
-    from rdflib import BNode, Literal, URIRef
-    from rdflib.term import Identifier
-
-    from symboslam.reasoning.located import OwlXmlLines
-
-    number = count()
-    fresh: dict[str, BNode] = {}
-    lines = OwlXmlLines(data)
-
-    def term(text: str) -> Identifier:
-        return fresh.setdefault(text, BNode()) if text.startswith("_:") else URIRef(text)
-
-    def on_object(subject: str, predicate: str, value: str) -> None:
-        graph.line = lines.line()
-        graph.add((term(subject), URIRef(predicate), term(value)))
-
-    def on_data(subject: str, predicate: str, value: Any, datatype: str) -> None:
-        if datatype.startswith("@"):
-            literal = Literal(value, lang=datatype[1:])
-        else:
-            literal = Literal(value, datatype=URIRef(datatype) if datatype else None)
-        graph.line = lines.line()
-        graph.add((term(subject), URIRef(predicate), literal))
-
-    try:
-        parse_owl_xml(lines, on_object, on_data, lambda: f"_:{next(number)}")
-    except OwlReadyOntologyParsingError as error:
-        text = str(error)
-        line = text.partition("line ")[2].partition(",")[0]
-        problem = f"it is not OWL/XML: {error.__cause__ or text}"
-        raise _error(name, int(line) if line.isdigit() else None, problem) from error
-    if dropped := lines.left_out():
-        problem = f"<{dropped[1]}> is not understood here; save it as Turtle or RDF/XML instead"
-        raise _error(name, dropped[0], problem)

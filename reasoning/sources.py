@@ -169,6 +169,8 @@ def read_bytes(path: Path) -> bytes:
         InputError: it cannot be read.
     """
     try:
+        if path.is_char_device():
+            raise InputError(f"{path}: it is a device and no file")
         return path.read_bytes()
     except OSError as error:
         raise InputError(f"{path}: {error.strerror or error}") from error
@@ -233,7 +235,7 @@ def _read(paths: list[Path], modules: set[str], strict: bool, follow: bool = Tru
 
     bundled = closure_files()
     read, notes = Sources(Graph()), []
-    wanted: dict[str, Path | None] = {str(path.resolve()): path for path in reversed(paths)}
+    wanted: dict[str, Path | None] = {_resolved(path): path for path in reversed(paths)}
     wanted.update(dict.fromkeys(sorted(modules)))
     done: set[str] = set()
     declared: dict[str, str] = {}  # ontology or version IRI -> the file that declares it
@@ -285,28 +287,43 @@ def _read(paths: list[Path], modules: set[str], strict: bool, follow: bool = Tru
         if target not in declared and follow:
             problem = f"{place}: the import <{target}> was not found beside the file"
             notes.append(Note("missing-import", target, problem))
-    if circle := find_circle(imports):
+    if follow and (circle := find_circle(imports)):
         steps = ", ".join(f"{place} imports {Path(to).name}" for to, place in circle)
         problem = f"the imports go round in a circle: {steps}"
         notes.append(Note("cyclic-import", circle[0][0], problem))
-    if strict and notes:
-        raise _refusal(notes)
+    if strict:
+        refuse(notes)
     read.missing = tuple(sorted({target for target, _ in missing if target not in declared}))
     read.notes = tuple(notes)
     return read
 
 
-def _refusal(notes: Sequence[Note]) -> OntologySyntaxError | ImportsError:
-    text = "\n".join(note.message for note in notes)
-    if all(note.kind in ("byte-order-mark", "empty-file") for note in notes):
-        return OntologySyntaxError(text)
+def _resolved(path: Path) -> str:
+    try:
+        return str(path.resolve())
+    except (OSError, RuntimeError):  # links that lead to each other
+        raise InputError(f"{path}: the link leads to no file") from None
+
+
+def refuse(notes: Iterable[Note]) -> None:
+    """Raise an error that tells the notes, if there are any.
+
+    Raises:
+        OntologySyntaxError: about files only.
+        ImportsError: about imports too.
+    """
+    notes = list(notes)
     kinds = {note.kind for note in notes}
+    text = "\n".join(note.message for note in notes)
     remedies = []
     if "missing-import" in kinds:
         remedies.append("put the file there, list it in catalog-v001.xml or mend the import")
     if "cyclic-import" in kinds:
         remedies.append("leave out one of the imports")
-    return ImportsError(f"{text}\n{'; '.join(remedies)}; or read on with --lenient-imports")
+    if remedies:
+        raise ImportsError(f"{text}\n{'; '.join(remedies)}; or read on with --lenient-imports")
+    if notes:
+        raise OntologySyntaxError(text)
 
 
 def _relative(path: Path, given: list[Path]) -> str:

@@ -24,6 +24,7 @@ from symboslam.reasoning.vocabulary import local_name
 
 ROOT = Path(__file__).resolve().parents[1]
 OUT = ROOT / "pitfall_reports"
+PAGE = ROOT / "docs" / "upstream-pitfalls.md"
 FORMATS = {"md": "md", "json": "json", "sarif": "sarif", "rdf": "oops-rdf"}
 WHOLE = "closure"
 MARKS = {Status.NOT_CHECKED: "-", Status.ERRORED: "error"}
@@ -40,9 +41,10 @@ def main() -> int:
     write(reports, chosen.out)
     print(f"wrote {len(reports) * len(FORMATS) + 1} files into {chosen.out}")
     if chosen.upstream and chosen.upstream.is_dir():
-        page = ROOT / "docs" / "upstream-pitfalls.md"
-        page.write_text(upstream_page(chosen.upstream, reports[WHOLE]), encoding="utf-8")
-        print(f"wrote {page}")
+        text = upstream_page(chosen.upstream, reports[WHOLE])
+        if not PAGE.is_file() or undated(PAGE.read_text(encoding="utf-8")) != undated(text):
+            PAGE.write_text(text, encoding="utf-8")
+        print(f"{PAGE} is up to date")
     failing = [
         f"{o.place}: {o.iri}: {o.finding.message}"
         for report in reports.values()
@@ -131,6 +133,11 @@ def upstream_page(folder: Path, ours: Report) -> str:
         "has an asserted superclass of a superclass "
         "([more](pitfalls.md#where-we-differ-from-oops-on-purpose)).\n"
     )
+
+
+def undated(page: str) -> list[str]:
+    """The page without the line that says when and where it was made."""
+    return [line for line in page.splitlines() if not line.startswith("Made by")]
 
 
 def critical(scans: Mapping[str, Report]) -> list[str]:

@@ -8,7 +8,8 @@ the whole file that declares it. Without a reason it has no effect.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from rdflib import OWL, RDF, URIRef
@@ -17,10 +18,11 @@ from rdflib.term import Node
 from symboslam.reasoning.axioms import Triple
 from symboslam.reasoning.pitfalls.model import Occurrence, Result, Status
 from symboslam.reasoning.pitfalls.ontology import Ontology
+from symboslam.reasoning.pitfalls.registry import CODES, rule
 from symboslam.reasoning.sources import Place
 from symboslam.reasoning.vocabulary import ACCEPTED_PITFALL
 
-_VALUE = re.compile(r"\s*(P\d\d)(-\w)?\s*:?\s*(.*)", re.DOTALL)
+_VALUE = re.compile(r"\s*(P\d\d(?:-[A-Z])?)\s*:?\s+(.*)", re.DOTALL | re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -31,6 +33,15 @@ class _Acceptance:
     reason: str
     axiom: Triple | None
     where: Place
+
+    @property
+    def form(self) -> str:
+        """The code, with the form of the pitfall if one is named."""
+        return self.variant or self.code
+
+
+_Key = tuple[str, str | Triple | Place]
+"""Code and what it is accepted for."""
 
 
 class Acceptances:
@@ -45,16 +56,36 @@ class Acceptances:
             for value in values:
                 place = ontology.place((subject, URIRef(ACCEPTED_PITFALL), value))
                 self._read(subject, str(value), place or Place("", None))
+        self._all.sort(key=lambda a: (a.where.file, a.where.line or 0, a.form, a.reason))
+        self._by: dict[_Key, list[_Acceptance]] = defaultdict(list)
+        for acceptance in self._all:
+            for scope in self._scopes(acceptance):
+                self._by[acceptance.code, scope].append(acceptance)
+
+    def _scopes(self, acceptance: _Acceptance) -> Iterator[str | Triple | Place]:
+        """What an acceptance holds for: an axiom, the files of an ontology, or a term."""
+        ontology = (acceptance.subject, RDF.type, OWL.Ontology)
+        if acceptance.axiom:
+            yield acceptance.axiom
+        elif ontology in self._ontology.graph:
+            for document in self._ontology.documents:
+                if ontology in document.graph:
+                    yield Place(document.name, None)
+        else:
+            yield str(acceptance.subject)
 
     def _read(self, subject: Node, value: str, where: Place) -> None:
         found = _VALUE.fullmatch(value)
-        if not found or not found[3].strip():
-            shown = " ".join(value.split())
-            what = f'"{shown}" accepts nothing: write the code and the reason, "P11: ..."'
-            self._notes.append((where, what))
+        if not found or not found[2].strip():
+            what = f'"{" ".join(value.split())}" accepts nothing: write the code and the reason'
+            self._notes.append((where, f'{what}, "P11: ..."'))
             return
-        code, variant = found[1], found[1] + found[2] if found[2] else ""
-        reason = " ".join(found[3].split())
+        form, reason = found[1].upper(), " ".join(found[2].split())
+        code, dash, _ = form.partition("-")
+        if code not in CODES or (dash and form not in rule(code).PITFALL.variants):
+            self._notes.append((where, f"accepts {form}, but there is no such pitfall"))
+            return
+        variant = form if dash else ""
         self._all.append(_Acceptance(subject, code, variant, reason, self._axiom(subject), where))
 
     def _axiom(self, subject: Node) -> Triple | None:
@@ -74,29 +105,29 @@ class Acceptances:
         return replace(result, occurrences=occurrences)
 
     def _one(self, code: str, occurrence: Occurrence) -> Occurrence:
-        fitting = [a for a in self._all if a.code == code and self._covers(a, occurrence)]
+        finding = occurrence.finding
+        keys: list[_Key] = [(code, element) for element in finding.elements]
+        keys += [(code, axiom) for axiom in finding.axioms]
+        keys.append((code, Place(occurrence.place.file, None)))
+        fitting = [
+            acceptance
+            for key in keys
+            for acceptance in self._by.get(key, ())
+            if acceptance.variant in ("", finding.variant)
+        ]
         self._used.update(fitting)
         return replace(occurrence, accepted=fitting[0].reason) if fitting else occurrence
 
-    def _covers(self, acceptance: _Acceptance, occurrence: Occurrence) -> bool:
-        finding = occurrence.finding
-        if acceptance.variant and acceptance.variant != finding.variant:
-            return False
-        if acceptance.axiom:
-            return acceptance.axiom in finding.axioms
-        ontology = (acceptance.subject, RDF.type, OWL.Ontology)
-        if ontology in self._ontology.graph:
-            files = {d.name for d in self._ontology.documents if ontology in d.graph}
-            return occurrence.place.file in files
-        return str(acceptance.subject) in finding.elements
+    def notes(self, results: Iterable[Result], strict_oops: bool = False) -> list[str]:
+        """Acceptances in given files without a reason, and such as accept what is not there.
 
-    def notes(self, results: Iterable[Result]) -> list[str]:
-        """Acceptances in given files without a reason, and such as accept what is not there."""
+        OOPS!'s rules name other elements, so that of theirs the latter would not be true.
+        """
         checked = {r.pitfall.code for r in results if r.status is Status.CHECKED}
         stale = [
-            (acceptance.where, f"accepts {acceptance.code}, which is not found there")
+            (acceptance.where, f"accepts {acceptance.form}, which is not found there")
             for acceptance in self._all
-            if acceptance not in self._used and acceptance.code in checked
+            if acceptance not in self._used and acceptance.code in checked and not strict_oops
         ]
         told = sorted([*self._notes, *stale], key=lambda n: (n[0].file, n[0].line or 0, n[1]))
         return [f"{place}: {what}" for place, what in told if place.file in self._ontology.given]

@@ -77,7 +77,7 @@ def _sarif(document: dict[str, Any]) -> Iterator[Key]:
         if run["tool"]["driver"]["name"] != TOOL:
             raise ValueError
         for found in run["results"]:
-            if not found["suppressions"]:
+            if all(s["kind"] == "external" for s in found["suppressions"]):
                 more = found["properties"]
                 yield _key(found["ruleId"], more["variant"], more["elements"])
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from weakref import WeakKeyDictionary
 
-from rdflib import OWL, XSD, BNode, URIRef
+from rdflib import OWL, RDFS, XSD, BNode, URIRef
 from rdflib.term import Node
 
 from symboslam.reasoning.pitfalls.ontology import Ontology
@@ -28,6 +28,7 @@ _UNQUALIFIED = {
     OWL.maxQualifiedCardinality: OWL.maxCardinality,
     OWL.qualifiedCardinality: OWL.cardinality,
 }
+_COUNTS = (OWL.minCardinality, OWL.maxCardinality, OWL.cardinality)
 _DEFINING = (*_JUNCTIONS, OWL.complementOf, OWL.oneOf)
 _ROUNDS = 5
 
@@ -118,19 +119,41 @@ class _Groups:
 
     def _expression(self, node: Node) -> int:
         """The number of an expression whose parts have theirs."""
-        found: list[tuple[URIRef, object]] = []
+        found: dict[URIRef, object] = {}
         thing = self._atom(OWL.Thing)
+        value: object
         for predicate, parts in self._forms.get(node, ()):
             numbers = [self._atom(part) for part in parts]
+            predicate = _UNQUALIFIED.get(predicate, predicate)
             if predicate in _JUNCTIONS:
                 return self.junction(_JUNCTIONS[predicate], numbers)
             if predicate in _SETS:
-                found.append((predicate, frozenset(numbers)))
-            elif predicate != OWL.onClass or numbers != [thing]:
-                found.append((_UNQUALIFIED.get(predicate, predicate), numbers[0]))
+                value = frozenset(numbers)
+            elif predicate in _COUNTS:
+                value = _count(parts[0])
+            elif parts == [RDFS.Literal] and predicate in (OWL.onDataRange, OWL.someValuesFrom):
+                value = thing  # whatever the property joins, and no less
+            else:
+                value = numbers[0]
+            # Said twice it is no OWL, and like nothing else.
+            found[predicate] = frozenset((found[predicate], value)) if predicate in found else value
         if not found:
             return self._number_of(("node", node))
-        return self._number_of(("parts", frozenset(found)))
+        return self._restriction(found, thing)
+
+    def _restriction(self, found: dict[URIRef, object], thing: int) -> int:
+        """The number of a restriction or another form; "min 1" is "some", "min 0" is anything."""
+        on = [found[p] for p in (OWL.onClass, OWL.onDataRange) if found.get(p, thing) != thing]
+        parts = {p: value for p, value in found.items() if p not in (OWL.onClass, OWL.onDataRange)}
+        least = parts.get(OWL.minCardinality)
+        if least == "0":
+            return thing
+        if least == "1":
+            del parts[OWL.minCardinality]
+            parts[OWL.someValuesFrom] = on[0] if on else thing
+        elif on:
+            parts[OWL.onClass] = on[0]
+        return self._number_of(("parts", frozenset(parts.items())))
 
     def junction(self, kind: str, numbers: Iterable[int]) -> int:
         """The number of "this and that", or of "this or that"."""
@@ -147,6 +170,11 @@ class _Groups:
         if not found:
             return thing if kind == _AND else self._number_of(("node", OWL.Nothing))
         return found.pop() if len(found) == 1 else self._number_of((kind, frozenset(found)))
+
+
+def _count(value: Node) -> str:
+    """A cardinality, whatever its datatype."""
+    return str(value).strip().lstrip("+0") or "0"
 
 
 _groups: WeakKeyDictionary[Ontology, _Groups] = WeakKeyDictionary()
@@ -175,11 +203,13 @@ def same_all(ontology: Ontology, ones: Iterable[Node], others: Iterable[Node]) -
     Several domains mean their intersection. None means ``owl:Thing``: ask first whether there are
     any.
     """
+    return meaning(ontology, ones) == meaning(ontology, others)
+
+
+def meaning(ontology: Ontology, nodes: Iterable[Node]) -> int:
+    """A number for a list of domains or ranges, which those that say the same have too."""
     groups = _of(ontology)
-    one, other = (
-        groups.junction(_AND, [groups.number(node) for node in nodes]) for nodes in (ones, others)
-    )
-    return one == other
+    return groups.junction(_AND, [groups.number(node) for node in nodes])
 
 
 def oops_equal(ontology: Ontology, one: Node, other: Node) -> bool:

@@ -5,11 +5,13 @@ from __future__ import annotations
 import re
 import socket
 import time
+from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cache
 from http.client import HTTPException
 from typing import TYPE_CHECKING, Any
 from urllib.error import HTTPError, URLError
-from urllib.parse import quote
+from urllib.parse import quote, urlsplit
 from urllib.request import (
     HTTPDefaultErrorHandler,
     HTTPErrorProcessor,
@@ -19,6 +21,8 @@ from urllib.request import (
     OpenerDirector,
     ProxyHandler,
     Request,
+    getproxies,
+    proxy_bypass,
 )
 
 from symboslam.errors import OntologySyntaxError
@@ -39,6 +43,8 @@ SECONDS = 10.0
 """Time limit of a request."""
 BYTES = 20_000_000
 """Size limit of an answer."""
+WELL_KNOWN = "www.w3.org"
+"""A host whose name is found wherever there is a network."""
 
 _BLOCK = 65536
 _TEMPORARY = (401, 403, 407, 408, 423, 425, 429)
@@ -63,6 +69,8 @@ class Answer:
         content: None if there was none.
         problem: why there was none.
         final: the problem will not go away by itself: no such page, no such host.
+        status: of HTTP, where the problem is one; 0 otherwise.
+        heard: a server answered something, so that others of its pages may be asked for.
     """
 
     iri: str
@@ -70,6 +78,15 @@ class Answer:
     content: bytes | None = None
     problem: str = ""
     final: bool = False
+    status: int = 0
+    heard: bool = True
+
+    @property
+    def outcome(self) -> str:
+        """What came of asking where there is no content, in words that follow the IRI."""
+        if not self.final:
+            return f"could not be looked at: {self.problem}"
+        return f"answers {self.problem}" if self.status else f"leads nowhere: {self.problem}"
 
     @property
     def is_page(self) -> bool:
@@ -112,6 +129,18 @@ def require(settings: Settings) -> None:
         raise NotCheckedError("needs the network: --online")
 
 
+def gaps(silent: Iterable[tuple[str, str]]) -> str:
+    """What could not be told, by reason: ``<a>, <b> could not be asked: 503; <c> ...``.
+
+    Args:
+        silent: what was asked, and what came of it.
+    """
+    by_reason: dict[str, list[str]] = {}
+    for asked, reason in silent:
+        by_reason.setdefault(reason, []).append(asked)
+    return "; ".join(f"{', '.join(asked)} {reason}" for reason, asked in by_reason.items())
+
+
 def fetch(iri: str, accept: str) -> Answer:
     """What is at an IRI; whatever goes wrong is in the answer.
 
@@ -139,7 +168,8 @@ def fetch(iri: str, accept: str) -> Answer:
     except HTTPError as error:
         error.close()
         final = error.code < 500 and error.code not in _TEMPORARY
-        return Answer(iri, problem=f"{error.code} {error.reason}".strip(), final=final)
+        problem = f"{error.code} {error.reason}".strip()
+        return Answer(iri, problem=problem, final=final, status=error.code)
     except URLError as error:
         return _failure(iri, error.reason)
     except (OSError, HTTPException, ValueError) as error:
@@ -147,12 +177,36 @@ def fetch(iri: str, accept: str) -> Answer:
 
 
 def _failure(iri: str, reason: Any) -> Answer:
-    """No answer at all; final if the host is not known or refuses to speak."""
+    """No answer at all; final if the host refuses to speak, or is not known but others are."""
     if isinstance(reason, TimeoutError):
-        return Answer(iri, problem=f"no answer within {SECONDS:g} s")
-    unknown = isinstance(reason, socket.gaierror) and reason.errno == socket.EAI_NONAME
+        return Answer(iri, problem=f"no answer within {SECONDS:g} s", heard=False)
     text = str(getattr(reason, "strerror", None) or reason or type(reason).__name__)
-    return Answer(iri, problem=text, final=unknown or isinstance(reason, ConnectionRefusedError))
+    unknown = isinstance(reason, socket.gaierror) and reason.errno == socket.EAI_NONAME
+    if not (unknown or isinstance(reason, ConnectionRefusedError)):
+        return Answer(iri, problem=text, heard=False)
+    if _has_proxy(iri):
+        text += ", which may concern the proxy"
+        return Answer(iri, problem=text, heard=False)
+    if unknown and not _names_are_found():
+        text += f", and {WELL_KNOWN} is not found either"
+        return Answer(iri, problem=text, heard=False)
+    return Answer(iri, problem=text, final=True, heard=False)
+
+
+@cache
+def _names_are_found() -> bool:
+    """Whether the names of hosts are found at all; without a network, none may "exist"."""
+    try:
+        socket.getaddrinfo(WELL_KNOWN, 443)
+    except OSError:
+        return False
+    return True
+
+
+def _has_proxy(iri: str) -> bool:
+    """Whether a proxy is asked instead of the host, or may be after a redirection."""
+    host = urlsplit(iri).hostname or ""
+    return bool({"http", "https"} & getproxies().keys()) and not proxy_bypass(host)
 
 
 class _Redirects(HTTPRedirectHandler):

@@ -11,7 +11,7 @@ from pathlib import Path
 from rdflib import DC, DCTERMS, OWL, RDF, RDFS, SKOS, BNode, Graph, Literal, URIRef
 from rdflib.term import Node
 
-from symboslam.reasoning.axioms import Triple, Words
+from symboslam.reasoning.axioms import Axiom, Triple, Words
 from symboslam.reasoning.sources import Place, Sources
 
 BUILTIN = (
@@ -24,6 +24,7 @@ BUILTIN = (
 """Namespaces of the languages themselves, whose terms are nobody's pitfall."""
 
 Statements = Mapping[Node, tuple[Node, ...]]
+_LONGEST = 400  # letters of an axiom in words
 
 
 def is_builtin(term: Node) -> bool:
@@ -66,7 +67,8 @@ class Ontology:
     ) -> None:
         self.sources, self.graph = sources, sources.graph
         self.documents, self.unread = list(documents), unread
-        self.words = Words(self.graph)
+        self.words = Words(self.graph, limit=30)
+        self._texts: dict[Triple, str] = {}
         index: dict[Node, dict[Node, list[Node]]] = defaultdict(lambda: defaultdict(list))
         for s, p, o in self.graph:
             index[p][s].append(o)
@@ -236,6 +238,13 @@ class Ontology:
     def place(self, triple: Triple) -> Place | None:
         """Where a triple is stated."""
         return self.sources.places.get(triple)
+
+    def text(self, triple: Triple) -> str:
+        """The axiom that a triple stands for in words, cut if it is very long."""
+        if triple not in self._texts:
+            text = self.words.axiom(Axiom(*triple, frozenset(), self.graph))
+            self._texts[triple] = text if len(text) <= _LONGEST else f"{text[:_LONGEST]} ..."
+        return self._texts[triple]
 
     def is_given(self, triple: Triple) -> bool:
         """Whether a triple is stated in a file that the user gave."""

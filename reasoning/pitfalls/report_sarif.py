@@ -119,7 +119,6 @@ def _results(report: Report) -> Iterator[dict[str, Any]]:
 def _result(result: Result, o: Occurrence, index: int, fingerprint: str) -> dict[str, Any]:
     finding = o.finding
     text = f"{subject(o)}: {finding.message}. {finding.mend or result.pitfall.remedy}"
-    suppressed = {"kind": "inSource", "status": "accepted", "justification": o.accepted}
     return {
         "ruleId": result.pitfall.code,
         "ruleIndex": index,
@@ -127,13 +126,23 @@ def _result(result: Result, o: Occurrence, index: int, fingerprint: str) -> dict
         "message": {"text": text},
         "locations": [_location(o)],
         "partialFingerprints": {"symboslamPitfall/v1": fingerprint},
-        "suppressions": [] if o.accepted is None else [suppressed],
+        "suppressions": _suppressions(o),
         "properties": {
             "elements": list(map(str, finding.elements)),
             "variant": finding.variant,
             "axiom": o.axiom,
         },
     }
+
+
+def _suppressions(o: Occurrence) -> list[dict[str, str]]:
+    """Why it fails nothing: not all readers of SARIF look at ``baselineState``."""
+    if o.accepted is not None:
+        return [{"kind": "inSource", "status": "accepted", "justification": o.accepted}]
+    if o.known:
+        known = "known: it is in the baseline"
+        return [{"kind": "external", "status": "accepted", "justification": known}]
+    return []
 
 
 def _fingerprint(result: Result, o: Occurrence) -> str:
@@ -157,6 +166,8 @@ def _location(o: Occurrence) -> dict[str, Any]:
 
 def _artifact(file: str) -> Mapping[str, str]:
     path = Path(file)
+    if path.is_relative_to(Path.cwd()):
+        path = path.relative_to(Path.cwd())
     if path.is_absolute():
         return {"uri": path.as_uri()}
     return {"uri": quote(path.as_posix(), errors="replace"), "uriBaseId": _ROOT}

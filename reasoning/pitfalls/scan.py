@@ -10,10 +10,9 @@ from dataclasses import replace
 from pathlib import Path
 from types import FrameType
 
-from rdflib import OWL, RDF, URIRef
+from rdflib import OWL, RDF, RDFS, URIRef
 
-from symboslam.errors import InputError, OntologyError
-from symboslam.reasoning.axioms import Axiom, split
+from symboslam.errors import InputError, OntologyError, SymboSlamError
 from symboslam.reasoning.pitfalls.acceptance import Acceptances
 from symboslam.reasoning.pitfalls.model import (
     NOT_SELECTED,
@@ -27,10 +26,15 @@ from symboslam.reasoning.pitfalls.model import (
 )
 from symboslam.reasoning.pitfalls.ontology import Document, Ontology
 from symboslam.reasoning.pitfalls.registry import CODES, Rule, rule
-from symboslam.reasoning.sources import CLOSURE, Place, bundled_name, read_closure
+from symboslam.reasoning.sources import CLOSURE, Place, bundled_name, read_closure, refuse
 from symboslam.reasoning.vocabulary import DOCUMENTS
 
 Progress = Callable[[str, float], None]
+_AXIOMS = (
+    RDFS.subClassOf, RDFS.subPropertyOf, RDFS.domain, RDFS.range, OWL.equivalentClass,
+    OWL.equivalentProperty, OWL.inverseOf, OWL.disjointWith,
+)  # fmt: skip
+_REFUSED = ("missing-import", "cyclic-import", "empty-file")  # a byte-order mark is no harm here
 
 
 class _OutOfTime(BaseException):
@@ -73,15 +77,15 @@ def scan_pitfalls(
                 f"reading took longer than the time limit of {settings.seconds:g} s "
                 "(--seconds raises it)"
             ) from None
+        accepted = Acceptances(ontology)
         results = list(_run(ontology, settings, codes, progress))
-    accepted = Acceptances(ontology)
     results = [accepted.apply(result) for result in results]
     return Report(
         ontology=ontology.iri,
         files=tuple(d.name for d in ontology.documents if d.given),
         results=results,
         settings=settings,
-        notes=(*_notes(ontology, follow), *accepted.notes(results)),
+        notes=(*_notes(ontology, follow), *accepted.notes(results, settings.strict_oops)),
         out_of_time=any(result.reason == _late(settings) for result in results),
     )
 
@@ -93,7 +97,8 @@ def load(targets: Sequence[str | Path], follow: bool, strict_imports: bool) -> O
         InputError: a file cannot be read.
         OntologyError: a file does not parse, states no ontology, or an import is missing.
     """
-    sources = read_closure(targets or [CLOSURE], strict=strict_imports, follow=follow)
+    sources = read_closure(targets or [CLOSURE], strict=False, follow=follow)
+    refuse(note for note in sources.notes if strict_imports and note.kind in _REFUSED)
     given = [_shown(target) for target in targets] or list(sources.documents)
     names = dict.fromkeys([*given, *sources.documents])  # as given, then what they import
     documents = [
@@ -102,11 +107,17 @@ def load(targets: Sequence[str | Path], follow: bool, strict_imports: bool) -> O
         if n in sources.documents  # not if it was given twice under different names
     ]
     ontology = Ontology(sources, documents, sources.missing)
-    declared = (ontology.terms, ontology.annotation_properties, split(ontology.graph)[1])
-    if not any(declared) and OWL.Ontology not in ontology.graph.objects(None, RDF.type):
+    if not _is_ontology(ontology):
         shown = ", ".join(given)
         raise OntologyError(f"{shown}: it declares no class and no property; is it an ontology?")
     return ontology
+
+
+def _is_ontology(ontology: Ontology) -> bool:
+    """Whether anything is declared, or stated of classes or properties."""
+    declared = ontology.terms or ontology.annotation_properties
+    axioms = any(map(ontology.statements, _AXIOMS))
+    return bool(declared) or axioms or OWL.Ontology in ontology.graph.objects(None, RDF.type)
 
 
 def _shown(target: str | Path) -> str:
@@ -149,6 +160,8 @@ def _check(one: Rule, ontology: Ontology, settings: Settings) -> Result:
         ]
     except NotCheckedError as why:
         return Result(one.PITFALL, Status.NOT_CHECKED, str(why))
+    except SymboSlamError:  # what the user gave is wrong: a manifest that is not there
+        raise
     except Exception as error:  # any defect of a rule
         return Result(one.PITFALL, Status.ERRORED, f"{type(error).__name__}: {error}")
     occurrences.sort(key=_order)
@@ -174,15 +187,8 @@ def _locate(ontology: Ontology, finding: Finding, everywhere: bool) -> Occurrenc
     elif not here and places and not everywhere:
         return None
     place = next(iter(here or places), _head(ontology))
-    text = _axiom_text(ontology, finding)
+    text = ontology.text(finding.axioms[0]) if finding.axioms else ""
     return Occurrence(finding, first or ontology.iri, place, text)
-
-
-def _axiom_text(ontology: Ontology, finding: Finding) -> str:
-    if not finding.axioms:
-        return ""
-    s, p, o = finding.axioms[0]
-    return ontology.words.axiom(Axiom(s, p, o, frozenset(), ontology.graph))
 
 
 def _head(ontology: Ontology) -> Place:

@@ -3,15 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Set
+from weakref import WeakKeyDictionary
 
-from rdflib import OWL, RDF, BNode, URIRef
+from rdflib import OWL, RDF, BNode, Namespace, URIRef
 from rdflib.term import Node
 
 from symboslam.reasoning.axioms import Triple
 from symboslam.reasoning.pitfalls.ontology import Ontology, is_builtin
 
+SWRL = Namespace("http://www.w3.org/2003/11/swrl#")
+_SWRLB = "http://www.w3.org/2003/11/swrlb#"
+
+_WHOLES: WeakKeyDictionary[Ontology, dict[Node, Triple]] = WeakKeyDictionary()
+
 SUBJECT, OBJECT, LIST = 1, 2, 4
 """Positions in a statement, to be added up; ``LIST`` is the items of the list in its object."""
+
+
+def is_of_rules(term: Node) -> bool:
+    """Whether a term is of the language of rules (SWRL), its built-in functions included."""
+    return str(term).startswith((str(SWRL), _SWRLB))
 
 
 def first_uses(
@@ -73,11 +84,22 @@ def by_place(ontology: Ontology, triple: Triple) -> tuple[bool, str, int, str]:
 
 def whole(ontology: Ontology, triple: Triple) -> Triple:
     """The axiom that a triple inside of an anonymous expression is part of; else the triple."""
-    seen = {triple}
-    while isinstance(triple[0], BNode):
-        holders = [t for t in ontology.graph.triples((None, None, triple[0])) if t not in seen]
-        if not holders:
+    known = _WHOLES.setdefault(ontology, {})
+    path: dict[Node, None] = {}
+    top = triple
+    while isinstance(top[0], BNode) and top[0] not in path:
+        node: Node = top[0]
+        path[node] = None
+        if node not in known:
+            holders = ontology.graph.triples((None, None, node))
+            holder = min(holders, key=lambda t: by_place(ontology, t), default=None)
+            if holder is None:
+                break
+            top = holder
+        else:
+            top = known[node]
             break
-        triple = min(holders, key=lambda t: by_place(ontology, t))
-        seen.add(triple)
-    return triple
+    for node in path:
+        if node != top[0]:  # so that a long list is climbed once
+            known[node] = top
+    return top

@@ -32,12 +32,26 @@ _NEEDED = ("index.noun", "data.noun", "index.verb", "index.adj", "index.adv")
 _LEVELS = 3
 
 
+def _damaged(folder: Path, file: str) -> NotCheckedError:
+    return NotCheckedError(f"WordNet at {folder} is damaged ({file}): install it anew")
+
+
 class _Lines:
-    """A file of WordNet's in memory that reads lines at offsets."""
+    """A file of WordNet's in memory that reads lines at offsets.
+
+    Raises:
+        NotCheckedError: it is empty or breaks off within a line.
+    """
 
     def __init__(self, path: Path) -> None:
-        with path.open("rb") as file:
-            self._map = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
+        try:
+            with path.open("rb") as file:
+                self._map = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
+        except ValueError:  # it is empty
+            raise _damaged(path.parent, path.name) from None
+        if self._map[-1:] != b"\n":
+            raise _damaged(path.parent, path.name)
+        self.path = path
         self._at = 0
 
     def seek(self, at: int) -> None:
@@ -80,8 +94,12 @@ class _Offsets(Mapping[str, dict[str, list[int]]]):
     def __getitem__(self, lemma: str) -> dict[str, list[int]]:
         if lemma not in self._found:
             fields = self._index.find(lemma)
-            senses = int(fields[2]) if fields else 0
-            self._found[lemma] = {"n": [int(f) for f in fields[-senses:]]} if senses else {}
+            try:
+                senses = int(fields[2]) if fields else 0
+                offsets = [int(f) for f in fields[-senses:]] if senses else []
+            except (IndexError, ValueError):
+                raise _damaged(self._index.path.parent, self._index.path.name) from None
+            self._found[lemma] = {"n": offsets} if offsets else {}
         return self._found[lemma]
 
     def __contains__(self, lemma: object) -> bool:
@@ -115,13 +133,25 @@ def _reader(folder: Path) -> WordNetCorpusReader:
     """The reader of nltk, made to read Debian's folder and no more of it than is asked for."""
     with _without_statistics():
         import nltk.data
-        from nltk.corpus.reader.wordnet import WordNetCorpusReader
+        from nltk.corpus.reader.wordnet import WordNetCorpusReader, WordNetError
 
     class Reader(WordNetCorpusReader):  # type: ignore[misc]
         def open(self, file: str) -> Any:
             if file == "lexnames":
                 return io.StringIO("".join(f"{n} {name} 0\n" for n, name in enumerate(LEXNAMES)))
             return _Lines(folder / file)
+
+        def synset_from_pos_and_offset(self, pos: str, offset: int) -> Any:
+            """As nltk does, which only warns of an offset that leads nowhere."""
+            try:
+                if offset not in self._synset_offset_cache[pos]:
+                    file = self._data_file(pos)
+                    file.seek(offset)
+                    if file.readline().split(" ", 1)[0] != f"{offset:08}":
+                        raise _damaged(folder, file.path.name)
+                return super().synset_from_pos_and_offset(pos, offset)
+            except (AssertionError, LookupError, OSError, ValueError, WordNetError):
+                raise _damaged(folder, "data.noun") from None
 
         def _scan_satellites(self) -> None:
             self.satellite_offsets: set[int] = set()
@@ -149,7 +179,8 @@ class WordNet:
         folder: with ``index.noun``, ``data.noun`` and so on.
 
     Raises:
-        NotCheckedError: WordNet or nltk is not installed.
+        NotCheckedError: WordNet or nltk is not installed, or its files are damaged, of which some
+            damage is only seen when a word is looked up.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -220,8 +251,8 @@ class WordNet:
             (or a member, or what it is made of), both by up to three steps; empty if neither.
         """
         wanted = {*self.synsets(two)}
-        starts = {*self.synsets(one)}
-        if starts & wanted:
+        starts = {*self.synsets(one)} if wanted else set()
+        if not starts or starts & wanted:
             return ""
         if wanted & _reached(starts, "hypernyms", "instance_hypernyms"):
             return "kind"
@@ -252,6 +283,6 @@ def wordnet(folder: Path) -> WordNet:
     """WordNet in a folder, opened once.
 
     Raises:
-        NotCheckedError: WordNet or nltk is not installed.
+        NotCheckedError: WordNet or nltk is not installed, or a file is damaged.
     """
     return WordNet(folder)

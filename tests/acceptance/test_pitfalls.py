@@ -127,7 +127,9 @@ def test_formats(run: Any, tmp_path: Path, form: str) -> None:
 
 
 def test_our_own_ontology(run: Any) -> None:
-    result = run("pitfalls", "--format", "json")
+    refused(run("pitfalls"), "FILE")
+    refused(run("pitfalls", ""), "FILE")
+    result = run("pitfalls", "https://w3id.org/symboslam/symboslam", "--format", "json")
     assert result.code == 0, result.out[:3000]
     assert json.loads(result.out)["ontology"].startswith("https://w3id.org/symboslam")
 
@@ -190,6 +192,12 @@ def test_syntaxes(run: Any, tmp_path: Path) -> None:
         ("cut.jsonld", '{"@id": "urn:x",', ["cut.jsonld", "line 1"]),
         ("picture.ttl", "\x89PNG\r\n\x1a\n\x00\x00", ["picture.ttl"]),
         ("page.owl", "<html><body>404</body></html>", ["page.owl"]),
+        (
+            "page2.owl",
+            '<html xmlns="http://www.w3.org/1999/xhtml"><head><title>404</title></head>'
+            "<body><p>404</p></body></html>",
+            ["is it an ontology?"],
+        ),
     ],
 )
 def test_no_ontology(run: Any, tmp_path: Path, name: str, text: str, words: list[str]) -> None:
@@ -201,6 +209,19 @@ def test_no_ontology(run: Any, tmp_path: Path, name: str, text: str, words: list
 def test_no_file(run: Any, tmp_path: Path) -> None:
     refused(run("pitfalls", tmp_path / "none.ttl"), "none.ttl", "No such file")
     refused(run("pitfalls", tmp_path), str(tmp_path))
+    refused(run("pitfalls", "/dev/zero"), "no file")
+    (tmp_path / "loop.ttl").symlink_to(tmp_path / "loop.ttl")
+    refused(run("pitfalls", tmp_path / "loop.ttl"), "link")
+    path = write(tmp_path, SOUND)
+    refused(run("pitfalls", path, "--questions", tmp_path / "none.ttl"), "none.ttl")
+
+
+def test_a_byte_order_mark_is_no_harm(run: Any, tmp_path: Path) -> None:
+    path = tmp_path / "bom.ttl"
+    path.write_text(HEAD + SOUND, encoding="utf-8-sig")
+    result = run("pitfalls", path, "--format", "json")
+    assert result.code == 0
+    assert any("byte-order mark" in note for note in json.loads(result.out)["notes"])
 
 
 def test_an_import_that_is_not_there(run: Any, tmp_path: Path) -> None:
@@ -318,7 +339,11 @@ def test_the_action(tmp_path: Path) -> None:
     assert location["region"]["startLine"] > 5
     write(tmp_path, SOUND)
     assert action_scan(tmp_path, files="farm.ttl").returncode == 0
-    assert action_scan(tmp_path, files="none.ttl").returncode == 2
+    for nothing in ("none.ttl", "", "  ", "\n"):
+        assert action_scan(tmp_path, files=nothing).returncode == 2
+    write(tmp_path / "my ontology", SOUND, "the farm.ttl")
+    assert action_scan(tmp_path, files="my ontology/*.ttl\n").returncode == 0
+    assert action_scan(tmp_path, files="**/the farm.ttl").returncode == 0
     assert (
         action_scan(tmp_path, files="farm.ttl", options="--ignore P22 --select P06").returncode == 0
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from rdflib import OWL, RDF, Graph, URIRef
 
-from symboslam.reasoning.axioms import split
+from symboslam.reasoning.axioms import Words, split
 from symboslam.reasoning.locality import module
 
 PREFIXES = """@prefix : <https://example.org/x#> .
@@ -85,6 +85,29 @@ def graph_of(text: str) -> Graph:
 def test_words(text: str, words: str) -> None:
     _, axioms = split(graph_of(text))
     assert [axiom.text for axiom in axioms] == [words]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("[] a owl:AllDisjointClasses ; owl:members ( :A :B :C :D :E ) .",
+         "A, B, C and 2 more are disjoint"),
+        ("[] a owl:AllDisjointClasses ; owl:members ( :A :B :C ) .", "A, B, C are disjoint"),
+        (":A owl:disjointUnionOf ( :B :C :D :E ) .",
+         "A is the disjoint union of B, C and 2 more"),
+        (":p owl:propertyChainAxiom ( :p :q :p :q ) .", "p of q of p of 1 more implies p"),
+        (":A rdfs:subClassOf [ owl:unionOf ( :B [ owl:intersectionOf ( :C :D ) ] :E ) ] .",
+         "every A is B or 2 more"),
+        (":A rdfs:subClassOf [ owl:complementOf [ owl:complementOf [ owl:complementOf :B ] ] ] .",
+         "every A is not (not ...)"),
+    ],
+)  # fmt: skip
+def test_words_cut_short(text: str, words: str) -> None:
+    graph = graph_of(text)
+    _, axioms = split(graph)
+    short = Words(graph, limit=3)
+    assert [short.axiom(axiom) for axiom in axioms] == [words]
+    assert [short.axiom(axiom) for axiom in axioms] == [words]
 
 
 def test_annotations_are_no_axioms() -> None:

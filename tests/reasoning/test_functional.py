@@ -106,6 +106,7 @@ AXIOMS = [
         "SubObjectPropertyOf(ObjectPropertyChain(:p ObjectInverseOf(:q)) :r)",
         ":r owl:propertyChainAxiom (:p [ owl:inverseOf :q ]) .",
     ),
+    ("SubObjectPropertyOf(ObjectPropertyChain(:p) :r)", ":r owl:propertyChainAxiom (:p) ."),
     ("EquivalentObjectProperties(:p :q)", ":p owl:equivalentProperty :q ."),
     ("DisjointObjectProperties(:p :q)", ":p owl:propertyDisjointWith :q ."),
     (
@@ -215,6 +216,14 @@ def test_axiom_over_several_lines() -> None:
         ("Ontology(Declaration(Thing(<urn:A>)))", "a declaration is of one of Class, Datatype"),
         ("Ontology(HasKey(<urn:A> <urn:p>))", "a key is stated so: HasKey(class (object"),
         ("Ontology(DLSafeRule(<urn:A>))", "a rule is stated so: "),
+        (
+            "Ontology(\nSubObjectPropertyOf(ObjectPropertyChain() <urn:r>))",
+            "line 2: ObjectPropertyChain has 0 parts, not at least 1",
+        ),
+        (
+            "Ontology(DLSafeRule(Body(<urn:A>) Head()))",
+            "line 1: an atom is expected in Body, not urn:A",
+        ),
         ("Ontology(DLSafeRule(Body(Foo(<urn:A>)) Head()))", "Foo is no atom of a rule"),
         ("Ontology(Annotation(<urn:a> ObjectOneOf(<urn:b>)))", "an annotation has a value"),
         (

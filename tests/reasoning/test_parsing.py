@@ -122,7 +122,7 @@ def test_owl_xml(resource: Callable[[str], Path]) -> None:
             "a.owx",
             b'<Ontology xmlns="http://www.w3.org/2002/07/owl#" ontologyIRI="urn:a">\n'
             b'<Declaration><Class abbreviatedIRI="x:A"/></Declaration></Ontology>',
-            "a.owx: line 2: it is not OWL/XML",
+            "a.owx: line 2: the prefix x: is not declared",
         ),
         ("a.png", b"\x89PNG\r\n\x1a\n\x00\x00", "a.png: line 1: it is not UTF-8"),
     ],
@@ -234,9 +234,28 @@ def test_deep_json() -> None:
 
 
 def test_deep_chain_of_triples() -> None:
-    lines = (b"_:n%d <urn:p> _:n%d ." % (i, i + 1) for i in range(5000))
+    step = b"_:n%d <http://www.w3.org/2002/07/owl#complementOf> _:n%d ."
+    lines = (step % (i, i + 1) for i in range(5000))
     with pytest.raises(OntologySyntaxError, match="nested too deeply"):
         parse("a.nt", b"\n".join(lines))
+
+
+def test_anonymous_individuals_may_be_linked_as_they_like() -> None:
+    lines = (b"_:n%d <urn:p> _:n%d ." % (i, i + 1) for i in range(5000))
+    assert len(parse("a.nt", b"\n".join(lines))) == 5000
+    data = PREFIXES + b"_:a :knows _:b . _:b :knows _:a . _:c :knows _:c ."
+    assert len(parse("a.ttl", data)) == 3
+
+
+def test_odd_values_are_kept_in_silence(capfd: pytest.CaptureFixture[str]) -> None:
+    data = PREFIXES + b':a :p "2020-13-45"^^<http://www.w3.org/2001/XMLSchema#date> , "x" .'
+    assert len(parse("a.ttl", data)) == 2
+    assert capfd.readouterr() == ("", "")
+
+
+def test_the_line_of_what_is_no_iri() -> None:
+    with pytest.raises(OntologySyntaxError, match=r"line 7: .* is not an IRI"):
+        parse("a.ttl", PREFIXES + b"\n:a\n  :p <urn:a\x01b> .")
 
 
 def test_long_lists_are_fine() -> None:
@@ -300,9 +319,13 @@ JSON_LD = b"""{
 
 def test_lines_of_json_ld() -> None:
     graph = parse("a.jsonld", JSON_LD)
-    lines = {str(s): graph.lines[s, p, o] for s, p, o in graph if isinstance(s, URIRef)}
-    assert lines == {"urn:e#A": 6, "urn:e#B": 8, "http://b.org/y": 10}
-    assert sorted(graph.lines[t] for t in graph if isinstance(t[0], BNode)) == [6, 9]
+    lines = sorted((str(s), graph.lines[s, p, o]) for s, p, o in graph if isinstance(s, URIRef))
+    assert lines == [
+        ("http://b.org/y", 10), ("http://b.org/y", 11),
+        ("urn:e#A", 5), ("urn:e#A", 5), ("urn:e#A", 6),  # a value without place: that of "@id"
+        ("urn:e#B", 8), ("urn:e#B", 8),
+    ]  # fmt: skip
+    assert sorted(graph.lines[t] for t in graph if isinstance(t[0], BNode)) == [5, 9]
 
 
 def test_prefixes_of_json_ld() -> None:
@@ -324,5 +347,5 @@ def test_lines_of_expanded_json_ld(town: Graph) -> None:
     graph = parse("a.jsonld", town.serialize(format="json-ld", encoding="utf-8"))
     assert not [t for t in graph if t not in graph.lines]
     text = town.serialize(format="json-ld").splitlines()
-    for (s, _, _), line in graph.lines.items():
-        assert not isinstance(s, URIRef) or str(s) in text[line - 1]
+    for (s, _, o), line in graph.lines.items():
+        assert not isinstance(s, URIRef) or any(str(t) in text[line - 1] for t in (s, o))

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from rdflib import OWL, RDFS, URIRef
+from rdflib.term import Node
 
+from symboslam.reasoning.pitfalls.equivalence import Equivalences
 from symboslam.reasoning.pitfalls.model import Finding, Pitfall, Settings, Severity
 from symboslam.reasoning.pitfalls.ontology import Ontology, is_builtin
 from symboslam.reasoning.vocabulary import local_name
@@ -23,25 +25,30 @@ PITFALL = Pitfall(
 
 
 def check(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
-    """Pairs of named classes of one namespace that are stated to be equivalent.
+    """Named classes of one namespace that are stated to be equivalent.
 
-    A pair is one finding, whichever way round and however often it is stated. No finding is a pair
-    with a deprecated class, whose equivalence says what to use in its place, and a pair of
-    datatypes.
+    Of those that are equivalent, directly or by way of each other, each is a finding together with
+    the first, whichever way round and however often it is stated. Deprecated classes are left out,
+    as their equivalences say what to use in their place, and datatypes.
     """
-    pairs: dict[tuple[URIRef, URIRef], list[tuple[URIRef, URIRef]]] = {}
-    for one, other in _stated(ontology):
-        pairs.setdefault((min(one, other), max(one, other)), []).append((one, other))
-    for pair, stated in sorted(pairs.items()):
-        if any(ontology.deprecated(term) or _is_datatype(ontology, term) for term in pair):
-            continue
-        first, second = map(local_name, pair)
-        yield Finding(
-            pair,
-            f"{first} and {second} are two classes for one concept",
-            tuple((s, OWL.equivalentClass, o) for s, o in sorted(stated)),
-            mend=f"Keep one of {first} and {second}, with the other name as a further label.",
+
+    def joins(one: Node, other: Node) -> bool:
+        return _alike(one, other) and not any(
+            ontology.deprecated(term) or RDFS.Datatype in ontology.kinds.get(term, ())
+            for term in (one, other)
         )
+
+    known = Equivalences(ontology, OWL.equivalentClass, joins)
+    for one, *others in known.groups():
+        ways = known.ways(one)
+        for other in others:
+            first, second = local_name(one), local_name(other)
+            yield Finding(
+                (one, other),
+                f"{first} and {second} are two classes for one concept",
+                known.axioms(ways, other),
+                mend=f"Keep one of {first} and {second}, with the other name as a further label.",
+            )
 
 
 def check_as_oops(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
@@ -53,20 +60,19 @@ def check_as_oops(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
 
 
 def _stated(ontology: Ontology) -> Iterator[tuple[URIRef, URIRef]]:
-    """The stated equivalences between classes of one namespace whose names differ."""
     for one, others in ontology.statements(OWL.equivalentClass).items():
         for other in others:
-            if not isinstance(one, URIRef) or not isinstance(other, URIRef) or is_builtin(one):
-                continue
-            first, second = local_name(one), local_name(other)
-            same_namespace = _namespace(one) == _namespace(other)
-            if same_namespace and first.lower() != second.lower():
+            if isinstance(one, URIRef) and isinstance(other, URIRef) and _alike(one, other):
                 yield one, other
+
+
+def _alike(one: Node, other: Node) -> bool:
+    """Whether two terms are of one namespace, with names that differ by more than case."""
+    if not isinstance(one, URIRef) or not isinstance(other, URIRef) or is_builtin(one):
+        return False
+    same_namespace = _namespace(one) == _namespace(other)
+    return same_namespace and local_name(one).lower() != local_name(other).lower()
 
 
 def _namespace(iri: str) -> str:
     return iri.rstrip("/").removesuffix(local_name(iri))
-
-
-def _is_datatype(ontology: Ontology, term: URIRef) -> bool:
-    return RDFS.Datatype in ontology.kinds.get(term, frozenset())

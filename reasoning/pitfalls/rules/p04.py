@@ -9,6 +9,7 @@ from rdflib.term import Node
 
 from symboslam.reasoning.pitfalls.model import Finding, Pitfall, Settings, Severity
 from symboslam.reasoning.pitfalls.ontology import Ontology, is_builtin
+from symboslam.reasoning.pitfalls.uses import SWRL
 from symboslam.reasoning.vocabulary import local_name
 
 PITFALL = Pitfall(
@@ -28,7 +29,7 @@ _AXIOMS = (
     OWL.onProperty, OWL.hasValue, RDFS.domain, RDFS.range, RDFS.subPropertyOf, OWL.inverseOf,
     OWL.propertyDisjointWith, OWL.propertyChainAxiom, OWL.assertionProperty, OWL.sourceIndividual,
     OWL.targetIndividual, SKOS.exactMatch, SKOS.closeMatch, SKOS.broadMatch, SKOS.narrowMatch,
-    SKOS.relatedMatch,
+    SKOS.relatedMatch, SWRL.classPredicate, SWRL.propertyPredicate, SWRL.dataRange,
 )  # fmt: skip
 """What they say relates the terms on both sides to something."""
 _EQUIVALENCES = (OWL.equivalentClass, OWL.equivalentProperty, OWL.sameAs)
@@ -38,11 +39,11 @@ def check(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
     """Terms that no axiom relates to another term of an ontology, and that nothing uses.
 
     Anything but annotations relates: a superclass or subclass, disjointness, a part in an
-    expression, a domain or range, an individual of a class, a value of a property, and a match of
-    SKOS. No relation is one to the languages' own terms (``owl:Thing``, ``xsd:string``) or to
-    itself; nor is an equivalence between two names, unless the other one is related. Deprecated
-    terms may stand alone, and so may terms that are defined (``rdfs:isDefinedBy``) in an ontology
-    that is not there: it may relate them.
+    expression or a rule, a domain or range, an individual of a class, a value of a property, and a
+    match of SKOS. No relation is one to the languages' own terms (``owl:Thing``, ``xsd:string``)
+    or to itself; nor is an equivalence between two names, unless the other one is related.
+    Deprecated terms may stand alone, and so may terms that are defined (``rdfs:isDefinedBy``) in an
+    ontology that is not there: it may relate them.
     """
     related = _related(ontology)
     _spread(ontology, related)

@@ -6,6 +6,8 @@ from collections.abc import Iterator
 
 from rdflib import OWL, URIRef
 
+from symboslam.reasoning.axioms import Triple
+from symboslam.reasoning.pitfalls.equivalence import stated_inverses
 from symboslam.reasoning.pitfalls.groups import listed, oops_equal_all, same_all
 from symboslam.reasoning.pitfalls.model import Finding, Pitfall, Settings, Severity
 from symboslam.reasoning.pitfalls.ontology import Ontology, is_builtin
@@ -31,9 +33,9 @@ def check(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
     A domain or range that is not stated fits any. A pair is one finding, whichever way round it is
     stated.
     """
-    pairs: dict[tuple[URIRef, URIRef], list[tuple[URIRef, URIRef]]] = {}
-    for one, other in _stated(ontology):
-        pairs.setdefault((min(one, other), max(one, other)), []).append((one, other))
+    pairs: dict[tuple[URIRef, URIRef], list[Triple]] = {}
+    for one, other, axiom in stated_inverses(ontology):
+        pairs.setdefault((min(one, other), max(one, other)), []).append(axiom)
     for (one, other), stated in sorted(pairs.items()):
         differ = []
         for from_, to in dict.fromkeys([(one, other), (other, one)]):
@@ -48,7 +50,7 @@ def check(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
             yield Finding(
                 tuple(dict.fromkeys([one, other])),
                 f"{names}: stated to be inverse, but {' and '.join(differ)}",
-                tuple((s, OWL.inverseOf, o) for s, o in sorted(stated)),
+                tuple(sorted(stated, key=lambda t: (t[1] != OWL.inverseOf, t))),
             )
 
 
@@ -69,6 +71,7 @@ def check_as_oops(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
 
 
 def _stated(ontology: Ontology) -> Iterator[tuple[URIRef, URIRef]]:
+    """What ``owl:inverseOf`` says of named properties."""
     for one, others in ontology.statements(OWL.inverseOf).items():
         for other in others:
             if not isinstance(one, URIRef) or not isinstance(other, URIRef):

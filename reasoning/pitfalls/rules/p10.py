@@ -11,7 +11,6 @@ from rdflib.term import Node
 from symboslam.reasoning.pitfalls.model import Finding, Pitfall, Settings, Severity
 from symboslam.reasoning.pitfalls.ontology import Ontology
 from symboslam.reasoning.pitfalls.unread import not_read
-from symboslam.reasoning.vocabulary import local_name
 
 PITFALL = Pitfall(
     code="P10",
@@ -28,13 +27,11 @@ PITFALL = Pitfall(
 
 def check(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
     """Sibling classes, but no disjointness in any form."""
-    pair = _siblings(ontology)
-    if not pair or _disjointness(ontology):
+    if not _siblings(ontology) or _disjointness(ontology):
         return
     if ontology.unread:
         raise not_read(ontology)
-    one, other = (local_name(iri) for iri in pair)
-    yield Finding((), f"it keeps no two classes apart, not even {one} and {other}")
+    yield Finding((), "it says of no two classes that they have no members in common")
 
 
 def check_as_oops(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
@@ -43,9 +40,9 @@ def check_as_oops(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
         yield Finding((), "it states no disjointness of classes")
 
 
-def _siblings(ontology: Ontology) -> tuple[URIRef, URIRef] | None:
-    """Two classes below the same one (or below none) that are not equivalent."""
-    below: dict[URIRef | None, dict[Node, URIRef]] = defaultdict(dict)
+def _siblings(ontology: Ontology) -> bool:
+    """Whether two classes below the same one (or below none) are not equivalent."""
+    below: dict[URIRef | None, set[Node]] = defaultdict(set)
     known = set(ontology.classes)
     for cls in ontology.classes:
         if ontology.deprecated(cls):
@@ -54,12 +51,8 @@ def _siblings(ontology: Ontology) -> tuple[URIRef, URIRef] | None:
         same = min([cls, *equivalents], key=str)
         above = [c for c in ontology.superclasses.get(cls, ()) if c != cls and c in known]
         for parent in above or (None,):
-            below[parent].setdefault(same, cls)
-    for children in below.values():
-        if len(children) > 1:
-            one, other, *_ = sorted(children.values())
-            return one, other
-    return None
+            below[parent].add(same)
+    return any(len(children) > 1 for children in below.values())
 
 
 def _stated(ontology: Ontology) -> bool:
@@ -72,13 +65,32 @@ def _stated(ontology: Ontology) -> bool:
 
 
 def _disjointness(ontology: Ontology) -> bool:
-    """Whether it is stated, or a class is stated to be outside another: below its complement."""
+    """Whether it is stated in any form.
+
+    A class can be stated to be below another's complement, or what several classes have in common
+    to be owl:Nothing.
+    """
     if _stated(ontology):
         return True
     complements = ontology.statements(OWL.complementOf)
+    return (
+        any(
+            isinstance(s, URIRef) and (s in complements or o in complements)
+            for predicate in (RDFS.subClassOf, OWL.equivalentClass)
+            for s, objects in ontology.statements(predicate).items()
+            for o in objects
+        )
+        or any(isinstance(s, URIRef) for s in complements)
+        or any(
+            _is_nothing(ontology, s) and any(len({*ontology.members(o)}) > 1 for o in objects)
+            for s, objects in ontology.statements(OWL.intersectionOf).items()
+        )
+    )
+
+
+def _is_nothing(ontology: Ontology, expression: Node) -> bool:
+    """Whether an expression, or what it is equivalent to, is stated to be owl:Nothing."""
     return any(
-        isinstance(s, URIRef) and (s in complements or o in complements)
-        for predicate in (RDFS.subClassOf, OWL.equivalentClass)
-        for s, objects in ontology.statements(predicate).items()
-        for o in objects
-    ) or any(isinstance(s, URIRef) for s in complements)
+        OWL.Nothing in (*ontology.objects(c, RDFS.subClassOf), *ontology.equivalents.get(c, ()))
+        for c in (expression, *ontology.equivalents.get(expression, ()))
+    )

@@ -7,15 +7,10 @@ from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
 
 from rdflib import OWL, URIRef
+from rdflib.term import Node
 
 from symboslam.reasoning.pitfalls.model import Finding, Pitfall, Settings, Severity
-from symboslam.reasoning.pitfalls.names import (
-    above,
-    apart,
-    components,
-    oops_name,
-    squashed,
-)
+from symboslam.reasoning.pitfalls.names import Relations, components, oops_name, squashed
 from symboslam.reasoning.pitfalls.ontology import Ontology
 from symboslam.reasoning.vocabulary import local_name
 
@@ -38,22 +33,28 @@ _OF_DATA = "equivalentAttribute"
 def check(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
     """Groups of properties whose names differ in case and punctuation at most.
 
-    Properties of which one is above the other, or that are equivalent through others, are no
-    pair; neither are deprecated ones.
+    Properties of which one is above the other, that are inverse, that are equivalent, or that are
+    disjoint, also by way of others, are no pair; neither are deprecated ones.
     """
-    part = components(ontology.equivalents)
-    supers: dict[URIRef, set[URIRef]] = {}
-
-    def related(one: URIRef, two: URIRef) -> bool:
-        for term in (one, two):
-            if term not in supers:
-                supers[term] = above(term, ontology.superproperties)
-        same = one in part and part[one] == part.get(two)
-        return same or two in supers[one] or one in supers[two]
-
+    relations = Relations(
+        components(ontology.equivalents),
+        ontology.superproperties,
+        _disjoint(ontology),
+        ontology.inverses,
+    )
     for props, group in _kinds(ontology):
         usable = [p for p in props if not ontology.deprecated(p)]
-        yield from _alike(usable, lambda p: squashed(local_name(p)), related, group)
+        yield from _alike(usable, lambda p: squashed(local_name(p)), relations, group)
+
+
+def _disjoint(ontology: Ontology) -> Iterator[Sequence[Node]]:
+    for s, objects in ontology.statements(OWL.propertyDisjointWith).items():
+        for o in objects:
+            yield s, o
+    for s, objects in ontology.statements(OWL.members).items():
+        if OWL.AllDisjointProperties in ontology.kinds.get(s, ()):
+            for o in objects:
+                yield ontology.members(o)
 
 
 def _kinds(ontology: Ontology) -> list[tuple[Sequence[URIRef], str]]:
@@ -63,14 +64,14 @@ def _kinds(ontology: Ontology) -> list[tuple[Sequence[URIRef], str]]:
 def _alike(
     props: Sequence[URIRef],
     name: Callable[[URIRef], str],
-    related: Callable[[URIRef, URIRef], bool],
+    relations: Relations,
     group: str,
 ) -> Iterator[Finding]:
     by_name: dict[str, list[URIRef]] = defaultdict(list)
-    for prop in props:
+    for prop in sorted({*props}):
         by_name[name(prop)].append(prop)
-    for key, same in sorted(by_name.items()):
-        found = apart(same, related) if key and len(same) > 1 else []
+    groups = [same for key, same in sorted(by_name.items()) if key and len(same) > 1]
+    for found in relations.unrelated(groups, str):
         if found:
             names = sorted({local_name(p) for p in found})
             called = f"are all called {names[0]}" if len(names) == 1 else "are named alike"
@@ -88,18 +89,11 @@ def check_as_oops(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
     A property that is only the object of owl:equivalentProperty still is a pair with one that is
     neither subject nor object. Deprecated properties count.
     """
-    supers: dict[URIRef, set[URIRef]] = {}
     stated = ontology.statements(OWL.equivalentProperty)
-    targets = {o for objects in stated.values() for o in objects}
-
-    def related(one: URIRef, two: URIRef) -> bool:
-        for term in (one, two):
-            if term not in supers:
-                supers[term] = above(term, ontology.superproperties)
-        return two in supers[one] or one in supers[two] or {one, two} <= targets
-
+    targets = {o: 0 for objects in stated.values() for o in objects}
+    relations = Relations(targets, ontology.superproperties)
     for props, group in _kinds(ontology):
-        yield from _alike([p for p in props if p not in stated], _oops_key, related, group)
+        yield from _alike([p for p in props if p not in stated], _oops_key, relations, group)
 
 
 def _oops_key(prop: URIRef) -> str:

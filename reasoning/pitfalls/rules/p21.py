@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 
 from symboslam.reasoning.pitfalls.model import Finding, Pitfall, Settings, Severity
 from symboslam.reasoning.pitfalls.names import oops_name, oops_tokens, spoken, tokens
@@ -28,7 +29,7 @@ def check(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
     for cls in ontology.classes:
         name = spoken(ontology, cls)
         words = [word.lower() for word in tokens(name)]
-        for word, after in zip(words, [*words[1:], ""], strict=True):
+        for word, after in pairwise([*words, ""]):
             if word in _WORDS and after != "than" and not ontology.deprecated(cls):
                 message = f'"{word}" in the name says that the class is for what is left over'
                 yield Finding((cls,), message)

@@ -29,61 +29,54 @@ PITFALL = Pitfall(
     "an old name that is in use as a deprecated term.",
 )
 
+_STARTS = {"upper": "start{} with a capital", "lower": "start{} with a small letter"}
 _JOINED = {
-    "": "words not joined by a mark",
-    "_": "words joined by _",
-    "-": "words joined by -",
+    "": "join{} words without a mark",
+    "_": "join{} words by _",
+    "-": "join{} words by -",
 }
-_STARTS = {"upper": "first a capital", "lower": "first a small letter"}
 
 
 def check(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
-    """One finding for each kind and namespace that mixes conventions: those in the minority.
+    """The names that are written otherwise than most of their kind and namespace.
 
     A convention is how a name starts, and what joins its words if it has several. Numbers,
-    names in capitals, which can be acronyms, and deprecated terms follow none.
+    names in capitals, which can be acronyms, and deprecated terms follow none. Each name is a
+    finding of its own, in words that no other name has a part in, so that it stays the same,
+    accepted or known, when terms come and go; unless the majority turns.
     """
     kinds = (
-        ("class", "classes", ontology.classes, "upper"),
-        ("object property", "object properties", ontology.object_properties, "lower"),
-        ("datatype property", "datatype properties", ontology.datatype_properties, "lower"),
+        ("classes", ontology.classes, "upper"),
+        ("object properties", ontology.object_properties, "lower"),
+        ("datatype properties", ontology.datatype_properties, "lower"),
     )
-    for one, many, terms, usual in kinds:
+    for kind, terms, usual in kinds:
         spaces: dict[str, list[URIRef]] = defaultdict(list)
         for term in terms:
             name = local_name(term)
             if name and not is_code(name) and not ontology.deprecated(term):
                 spaces[term.removesuffix(name)].append(term)
         for _, here in sorted(spaces.items()):
-            yield from _mixed(here, (one, many), usual)
+            yield from _mixed(here, kind, usual)
 
 
-def _mixed(terms: Sequence[URIRef], kind: tuple[str, str], usual: str) -> Iterator[Finding]:
-    minority: set[URIRef] = set()
-    parts = []
+def _mixed(terms: Sequence[URIRef], kind: str, usual: str) -> Iterator[Finding]:
+    wrong: dict[URIRef, list[tuple[str, str]]] = defaultdict(list)
     for style, preferred, words in ((_start, usual, _STARTS), (_join, "", _JOINED)):
-        by_style: dict[str, list[URIRef]] = defaultdict(list)
-        for term in terms:
-            found = style(local_name(term))
-            if found is not None:
-                by_style[found].append(term)
-        if len(by_style) > 1:
-            sizes = Counter({s: len(found) for s, found in by_style.items()})
-            order = sorted(sizes, key=lambda s: (-sizes[s], s != preferred, s))
-            minority.update(term for s in order[1:] for term in by_style[s])
-            parts += [f"{words[s]}: {_count(by_style[s], kind)}" for s in order]
-    if minority:
+        styles = {term: found for term in terms if (found := style(local_name(term))) is not None}
+        sizes = Counter(styles.values())
+        # Of what is equally common the usual one is the convention.
+        convention = min(sizes, key=lambda s: (-sizes[s], s != preferred, s), default="")
+        for term, found in styles.items():
+            if found != convention:
+                wrong[term].append((words[found].format("s"), words[convention].format("")))
+    for term, deviations in sorted(wrong.items()):
+        this, others = (" and ".join(texts) for texts in zip(*deviations, strict=True))
         yield Finding(
-            tuple(sorted(minority)),
-            "; ".join(parts),
-            mend="Write the names of these terms as most of their kind are written",
+            (term,),
+            f"{local_name(term)} {this}, where other {kind} {others}",
+            mend="Write the name as most of its kind are written",
         )
-
-
-def _count(terms: Sequence[URIRef], kind: tuple[str, str]) -> str:
-    names = [local_name(term) for term in terms[:2]]
-    shown = ", ".join(names) + (", ..." if len(terms) > 2 else "")
-    return f"{len(terms)} {kind[len(terms) != 1]} ({shown})"
 
 
 def _start(name: str) -> str | None:

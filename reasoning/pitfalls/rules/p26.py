@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
 
 from rdflib import OWL, URIRef
 
 from symboslam.reasoning.axioms import Triple
+from symboslam.reasoning.pitfalls.equivalence import stated_inverses
 from symboslam.reasoning.pitfalls.model import Finding, Pitfall, Settings, Severity
 from symboslam.reasoning.pitfalls.ontology import Ontology
 from symboslam.reasoning.vocabulary import local_name
@@ -26,29 +28,25 @@ PITFALL = Pitfall(
 def check(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
     """Symmetric properties that are stated to be the inverse of another named property.
 
-    Its inverse as an anonymous expression is not another property; itself as its inverse is P25.
+    To be equivalent to the inverse of another says the same. An anonymous inverse is not another
+    property; itself as its inverse is P25.
     """
-    return _find(ontology, itself=False)
+    return _find(ontology, [s for s in stated_inverses(ontology) if s[0] != s[1]])
 
 
 def check_as_oops(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
-    """The same, but itself as its inverse counts."""
-    return _find(ontology, itself=True)
+    """The same by owl:inverseOf alone, but itself as its inverse counts."""
+    return _find(ontology, [s for s in stated_inverses(ontology) if s[2][1] == OWL.inverseOf])
 
 
-def _find(ontology: Ontology, itself: bool) -> Iterator[Finding]:
+def _find(ontology: Ontology, stated: Iterable[tuple[URIRef, URIRef, Triple]]) -> Iterator[Finding]:
+    found: dict[URIRef, dict[URIRef, list[Triple]]] = defaultdict(lambda: defaultdict(list))
+    for one, other, axiom in stated:
+        for prop, inverse in {(one, other), (other, one)}:
+            found[prop][inverse].append(axiom)
     for prop in ontology.declared(OWL.SymmetricProperty):
-        others = [
-            other
-            for other in ontology.inverses.get(prop, ())
-            if isinstance(other, URIRef) and (itself or other != prop)
-        ]
-        if not others:
-            continue
-        names = " and ".join(map(local_name, others))
-        both: list[Triple] = [
-            t for o in others for t in ((prop, OWL.inverseOf, o), (o, OWL.inverseOf, prop))
-        ]
-        axioms = dict.fromkeys(t for t in both if t in ontology.graph)
-        message = f"{local_name(prop)} is symmetric and yet has an inverse, {names}"
-        yield Finding((prop,), message, tuple(axioms))
+        if prop in found:
+            names = " and ".join(map(local_name, sorted(found[prop])))
+            axioms = [axiom for _, said in sorted(found[prop].items()) for axiom in sorted(said)]
+            message = f"{local_name(prop)} is symmetric and yet has an inverse, {names}"
+            yield Finding((prop,), message, (*axioms,))

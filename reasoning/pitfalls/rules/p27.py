@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 
 from rdflib import OWL, URIRef
 from rdflib.term import Node
 
-from symboslam.reasoning.pitfalls.groups import listed, oops_equal_all, oops_same, same_all
+from symboslam.reasoning.pitfalls.equivalence import Equivalences
+from symboslam.reasoning.pitfalls.groups import (
+    listed,
+    meaning,
+    oops_equal_all,
+    oops_same,
+)
 from symboslam.reasoning.pitfalls.model import Finding, Pitfall, Settings, Severity
 from symboslam.reasoning.pitfalls.ontology import Ontology, is_builtin
 from symboslam.reasoning.vocabulary import local_name
@@ -27,35 +34,60 @@ PITFALL = Pitfall(
 
 
 def check(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
-    """Pairs of properties that are stated to be equivalent, with unlike domains or ranges.
+    """Properties that are stated to be equivalent, with unlike domains or ranges.
 
-    A domain or range that is not stated is unlike none. A pair is one finding.
+    Equivalence counts over several steps, too. Among all that are equivalent to each other, each
+    whose domain or range is not the usual one is a finding, together with one that has the usual
+    one. A domain or range that is not stated is unlike none.
     """
-    for (one, other), stated in sorted(_pairs(ontology).items()):
-        differ = []
-        for word, ends in (("domains", ontology.domains), ("ranges", ontology.ranges)):
-            first, second = ends(one), ends(other)
-            if first and second and not same_all(ontology, first, second):
-                texts = " but ".join(listed(ontology, nodes) for nodes in (first, second))
-                differ.append(f"their {word} differ ({texts})")
-        if differ:
-            names = f"{local_name(one)} and {local_name(other)}"
-            yield Finding(
-                (one, other),
-                f"{names} are stated to be equivalent, but {' and '.join(differ)}",
-                tuple((s, OWL.equivalentProperty, o) for s, o in sorted(stated)),
-            )
+    known = Equivalences(ontology, OWL.equivalentProperty)
+    for group in known.groups():
+        for usual, others in _unlike(ontology, group).items():
+            ways = known.ways(usual)
+            for other, differ in others.items():
+                pair = min(usual, other), max(usual, other)
+                texts = []
+                for end in differ:
+                    first, second = (listed(ontology, _ENDS[end](ontology, p)) for p in pair)
+                    texts.append(f"their {end} differ ({first} but {second})")
+                names = " and ".join(map(local_name, pair))
+                message = f"{names} are stated to be equivalent, but {' and '.join(texts)}"
+                yield Finding(pair, message, known.axioms(ways, other))
 
 
-def _pairs(ontology: Ontology) -> dict[tuple[URIRef, URIRef], list[tuple[URIRef, URIRef]]]:
-    """Pairs of named properties, in the order of their names, with the statements about them."""
-    pairs: dict[tuple[URIRef, URIRef], list[tuple[URIRef, URIRef]]] = {}
+_ENDS = {"domains": Ontology.domains, "ranges": Ontology.ranges}
+
+
+def _unlike(ontology: Ontology, group: Sequence[URIRef]) -> dict[URIRef, dict[URIRef, list[str]]]:
+    """A usual property -> the unusual ones -> the ends in which they differ from it."""
+    said = {
+        word: {p: meaning(ontology, ends(ontology, p)) for p in group if ends(ontology, p)}
+        for word, ends in _ENDS.items()
+    }
+    # Of what is equally common the first in the order of names counts as usual.
+    usual = {word: Counter(by.values()).most_common(1)[0][0] for word, by in said.items() if by}
+
+    def order(prop: URIRef) -> tuple[int, URIRef]:
+        return -sum(said[word].get(prop) == usual[word] for word in usual), prop
+
+    found: dict[URIRef, dict[URIRef, list[str]]] = defaultdict(lambda: defaultdict(list))
+    for word, number in usual.items():
+        model = min((p for p in said[word] if said[word][p] == number), key=order)
+        for prop in said[word]:
+            if said[word][prop] != number:
+                found[model][prop].append(word)
+    return found
+
+
+def _pairs(ontology: Ontology) -> set[tuple[URIRef, URIRef]]:
+    """Pairs of named properties that are directly stated to be equivalent."""
+    pairs: set[tuple[URIRef, URIRef]] = set()
     for one, others in ontology.statements(OWL.equivalentProperty).items():
         for other in others:
             if not isinstance(one, URIRef) or not isinstance(other, URIRef) or one == other:
                 continue
             if not is_builtin(one) and not is_builtin(other):
-                pairs.setdefault((min(one, other), max(one, other)), []).append((one, other))
+                pairs.add((min(one, other), max(one, other)))
     return pairs
 
 

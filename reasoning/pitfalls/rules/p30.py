@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from functools import cache
 from typing import Any
 
 from rdflib import OWL, URIRef
@@ -11,7 +12,7 @@ from rdflib.term import Node
 
 from symboslam.reasoning.pitfalls.model import Finding, Pitfall, Settings, Severity
 from symboslam.reasoning.pitfalls.names import (
-    above,
+    Relations,
     components,
     english,
     oops_groups,
@@ -52,88 +53,30 @@ def check(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
             words[cls] = phrase(english(ontology, cls))
             for sense in dictionary.synsets(words[cls])[:1]:
                 senses[sense].append(cls)
-    relations = _Relations(ontology)
-    for sense, group in senses.items():
-        if alike := _unrelated(group, words, relations):
+    relations = Relations(
+        components(ontology.equivalents), ontology.superclasses, _disjoint(ontology)
+    )
+    groups = relations.unrelated(list(senses.values()), words.__getitem__)
+    for sense, alike in zip(senses, groups, strict=True):
+        if alike:
             names = " and ".join(dict.fromkeys(f'"{words[cls]}"' for cls in alike))
             every = "both" if len(alike) == 2 else "all"
-            yield Finding(alike, f"{names} {every} mean: {sense.definition()}")
+            yield Finding(tuple(alike), f"{names} {every} mean: {sense.definition()}")
 
 
-def _unrelated(
-    group: list[URIRef], words: dict[URIRef, str], relations: _Relations
-) -> tuple[URIRef, ...]:
-    """The classes that nothing relates to some other class of another word."""
-    named: dict[str, list[URIRef]] = defaultdict(list)
-    for cls in group:
-        named[words[cls]].append(cls)
-    return tuple(
-        cls
-        for cls in group
-        if any(
-            not relations.stated(cls, other)
-            for word, others in named.items()
-            if word != words[cls]
-            for other in others
-        )
-    )
-
-
-class _Relations:
-    """What is declared between classes."""
-
-    def __init__(self, ontology: Ontology) -> None:
-        self._supers = ontology.superclasses
-        self._part = components(ontology.equivalents)
-        self._above: dict[URIRef, set[URIRef]] = {}
-        self._disjoint = _disjoint(ontology)
-
-    def stated(self, one: URIRef, two: URIRef) -> bool:
-        """Whether two classes are equivalent, one is above the other, or they are disjoint."""
-        if one in self._part and self._part[one] == self._part.get(two):
-            return True
-        first, second = self._ancestors(one), self._ancestors(two)
-        if two in first or one in second:
-            return True
-        if not self._disjoint:
-            return False
-        left, right = self._groups(first), self._groups(second)
-        return any(
-            b != a for number in left.keys() & right for a in left[number] for b in right[number]
-        )
-
-    def _groups(self, classes: set[URIRef]) -> dict[int, set[URIRef]]:
-        """Number of a group of disjoint classes -> those of the given classes that are in it."""
-        found: dict[int, set[URIRef]] = defaultdict(set)
-        for cls in classes:
-            for number in self._disjoint.get(cls, ()):
-                found[number].add(cls)
-        return found
-
-    def _ancestors(self, cls: URIRef) -> set[URIRef]:
-        if cls not in self._above:
-            self._above[cls] = above(cls, self._supers)
-        return self._above[cls]
-
-
-def _disjoint(ontology: Ontology) -> dict[Node, set[int]]:
-    """Class -> the numbers of the groups of disjoint classes that it is in."""
-    groups: list[list[Node]] = [
-        [s, o]
-        for predicate in (OWL.disjointWith, OWL.complementOf)
-        for s, objects in ontology.statements(predicate).items()
-        for o in objects
-    ]
+def _disjoint(ontology: Ontology) -> Iterator[Sequence[Node]]:
+    """The groups of disjoint classes."""
+    for predicate in (OWL.disjointWith, OWL.complementOf):
+        for s, objects in ontology.statements(predicate).items():
+            for o in objects:
+                yield s, o
     for predicate in (OWL.members, OWL.disjointUnionOf):
         for s, objects in ontology.statements(predicate).items():
-            if predicate == OWL.members and OWL.AllDisjointClasses not in ontology.kinds.get(s, ()):
-                continue
-            groups += [ontology.members(o) for o in objects]
-    found: dict[Node, set[int]] = defaultdict(set)
-    for number, group in enumerate(groups):
-        for cls in group:
-            found[cls].add(number)
-    return found
+            if predicate == OWL.disjointUnionOf or OWL.AllDisjointClasses in ontology.kinds.get(
+                s, ()
+            ):
+                for o in objects:
+                    yield ontology.members(o)
 
 
 def check_as_oops(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
@@ -143,18 +86,19 @@ def check_as_oops(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
     """
     dictionary = wordnet(settings.wordnet)
     tags = {cls: oops_tag(ontology, cls) for cls in ontology.classes}
-    named: dict[str, list[URIRef]] = defaultdict(list)
+    named: dict[str, set[URIRef]] = defaultdict(set)
     for cls, tag in tags.items():
-        named[tag.lower()].append(cls)
-    partners = {
-        cls: [
-            other
-            for synonym in dictionary.synonyms(tag) - {tag.lower()}
-            for other in named.get(synonym, ())
-            if other not in ontology.equivalents.get(cls, ())
-        ]
-        for cls, tag in tags.items()
-    }
+        named[tag.lower()].add(cls)
+
+    @cache
+    def synonyms(tag: str) -> set[URIRef]:
+        words = dictionary.synonyms(tag) - {tag.lower()}
+        return set().union(*(named.get(word, ()) for word in words))
+
+    def partners(cls: URIRef) -> set[URIRef]:
+        found, equivalents = synonyms(tags[cls]), ontology.equivalents.get(cls, ())
+        return found.difference(equivalents) if equivalents else found
+
     for group in oops_groups(tags, partners):
         names = " and ".join(local_name(cls) for cls in group)
         yield Finding(group, f"{names} are synonyms")

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator
+from itertools import combinations
 
 from rdflib import OWL, URIRef
 
+from symboslam.reasoning.axioms import Triple
+from symboslam.reasoning.pitfalls.equivalence import Equivalences
 from symboslam.reasoning.pitfalls.model import Finding, Pitfall, Settings, Severity
 from symboslam.reasoning.pitfalls.names import (
     english,
@@ -33,6 +36,7 @@ PITFALL = Pitfall(
     oops_group="wrongEquivalentClass",
 )
 
+_MANY = 30
 _STOP_WORDS = frozenset(
     "a an and are as at be by for from has in is it its of on or that the to was with".split()
 )
@@ -42,24 +46,35 @@ def check(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
     """Equivalent classes of which WordNet says that one is a kind or a part of the other.
 
     Their names are compared as a whole, and, where they share words at the start or the end, by
-    what is left. Names that share a sense are fine.
+    what is left. Names that share a sense are fine. Equivalence counts over several steps, too;
+    where more than ``_MANY`` classes are equivalent, only as far as it is stated directly.
     """
     dictionary = wordnet(settings.wordnet)
-    for one, two in _pairs(ontology):
-        if ontology.deprecated(one) or ontology.deprecated(two):
+    known = Equivalences(ontology, OWL.equivalentClass)
+    pairs = {*_pairs(ontology)}
+    for group in known.groups():
+        if len(group) <= _MANY:
+            pairs.update(combinations(group, 2))
+    names: dict[URIRef, str] = {}
+    for pair in sorted(pairs):
+        if any(map(ontology.deprecated, pair)):
             continue
-        names = phrase(english(ontology, one)), phrase(english(ontology, two))
-        for left, right in dict.fromkeys((names, _rest(*names))):
+        for cls in pair:
+            if cls not in names:
+                names[cls] = phrase(english(ontology, cls))
+        one, two = (names[cls] for cls in pair)
+        for left, right in dict.fromkeys(((one, two), _rest(one, two))):
             relation = _relation(dictionary, left, right)
             if relation:
-                axiom = (one, OWL.equivalentClass, two)
-                stated = axiom in ontology.graph
-                yield Finding(
-                    (one, two),
-                    f"declared equivalent, but {relation}",
-                    (axiom if stated else (two, OWL.equivalentClass, one),),
-                )
+                axioms = _stated(ontology, pair) or known.between(*pair)
+                yield Finding(pair, f"declared equivalent, but {relation}", axioms)
                 break
+
+
+def _stated(ontology: Ontology, pair: tuple[URIRef, URIRef]) -> tuple[Triple, ...]:
+    one, two = pair
+    both = ((one, OWL.equivalentClass, two), (two, OWL.equivalentClass, one))
+    return tuple(t for t in both if t in ontology.graph)
 
 
 def _pairs(ontology: Ontology) -> list[tuple[URIRef, URIRef]]:
@@ -106,7 +121,7 @@ def check_as_oops(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
     dictionary = wordnet(settings.wordnet)
     classes = {*ontology.classes}
     tags = {cls: oops_tag(ontology, cls) for cls in ontology.classes}
-    partners: dict[URIRef, list[URIRef]] = defaultdict(list)
+    partners: dict[URIRef, set[URIRef]] = defaultdict(set)
     for one, two in _pairs(ontology):
         if one in classes and two in classes:
             # A list of groups that goes by tags leaves the second direction out.
@@ -114,13 +129,13 @@ def check_as_oops(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
                 if not _same(dictionary, tags[a], tags[b]) and _differ(
                     dictionary, tags[a], tags[b]
                 ):
-                    partners[a].append(b)
-    for group in oops_groups(tags, partners):
+                    partners[a].add(b)
+    for group in oops_groups(tags, lambda cls: partners[cls]):
         names = " and ".join(local_name(cls) for cls in group)
         triples = [
-            t
-            for t in ontology.graph.triples((None, OWL.equivalentClass, None))
-            if t[0] in group and t[2] in group
+            (cls, OWL.equivalentClass, other)
+            for cls in group
+            for other in {*ontology.objects(cls, OWL.equivalentClass)}.intersection(group)
         ]
         yield Finding(
             group,

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from rdflib import RDFS, SKOS, Literal, URIRef
+from rdflib.term import Node
 
 from symboslam.reasoning.axioms import Triple
 from symboslam.reasoning.pitfalls.model import Finding, Pitfall, Settings, Severity
@@ -37,34 +38,55 @@ _OOPS_LANGUAGES = ("en", "es", "it", "de", "fr", "pt")
 
 
 def check(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
-    """Groups of classes with the same label in the same language, or in none.
+    """Groups of classes with the same label in the same language.
 
-    Labels are rdfs:label and skos:prefLabel, whatever their case, spaces and hyphens. Classes that
-    are equivalent, also by way of others, may share a label; deprecated ones are left out.
+    Labels are rdfs:label and skos:prefLabel, whatever their case, spaces and hyphens. Regions make
+    no other language, and a label without a language is compared with those of all languages.
+    Classes that are equivalent, also by way of others, may share a label; deprecated ones are left
+    out.
     """
     part = components(ontology.equivalents)
-
-    def related(one: URIRef, two: URIRef) -> bool:
-        return one in part and part[one] == part.get(two)
-
-    called: dict[tuple[str, str], dict[URIRef, Triple]] = defaultdict(dict)
+    called: dict[str, dict[str, dict[URIRef, Triple]]] = defaultdict(lambda: defaultdict(dict))
     for cls in ontology.classes:
         if not ontology.deprecated(cls):
             for predicate in (SKOS.prefLabel, RDFS.label):
                 for label in ontology.objects(cls, predicate):
                     if isinstance(label, Literal) and label.strip():
-                        key = normal_label(label) or label.strip(), (label.language or "").lower()
-                        called[key][cls] = (cls, predicate, label)
-    found: dict[tuple[URIRef, ...], tuple[str, str]] = {}
-    for key, triples in sorted(called.items()):
-        group = tuple(apart(triples, related)) if len(triples) > 1 else ()
-        if group and group not in found:
-            found[group] = key
-    for group, key in sorted(found.items()):
-        language = f" ({key[1]})" if key[1] else ""
-        axioms = tuple(called[key][cls] for cls in group)
+                        language = (label.language or "").lower().split("-")[0]
+                        text = normal_label(label) or label.strip()
+                        called[text][language][cls] = (cls, predicate, label)
+    found: dict[tuple[URIRef, ...], tuple[str, dict[URIRef, Triple]]] = {}
+    for _, by_language in sorted(called.items()):
+        for language, triples in _compared(by_language, part):
+            found.setdefault(tuple(sorted(triples)), (language, triples))
+    for group, (language, triples) in sorted(found.items()):
+        axioms = tuple(triples[cls] for cls in group)
         names = _names(group)
-        yield Finding(group, f'{names} have the same label "{axioms[0][2]}"{language}', axioms)
+        shown = f" ({language})" if language else ""
+        yield Finding(group, f'{names} have the same label "{axioms[0][2]}"{shown}', axioms)
+
+
+def _compared(
+    called: Mapping[str, Mapping[URIRef, Triple]], part: Mapping[Node, int]
+) -> Iterator[tuple[str, dict[URIRef, Triple]]]:
+    """The languages in which classes of one label clash, with these; "" for several languages.
+
+    A class whose label has no language belongs to all of them, so that there is one group then.
+    """
+    anywhere = dict(called.get("", {}))
+    many = {part.get(cls, cls) for cls in anywhere}
+    clash: dict[str, Mapping[URIRef, Triple]] = {}
+    for language, here in sorted(called.items()):
+        if not anywhere:
+            if apart(here, part):
+                yield language, dict(here)
+        elif len(many) > 1 or not many.issuperset(part.get(cls, cls) for cls in here):
+            clash[language] = here
+    if clash:
+        merged = dict(anywhere)
+        for here in clash.values():
+            merged.update(here)
+        yield "", merged
 
 
 def _names(group: Iterable[URIRef]) -> str:
@@ -86,10 +108,14 @@ def check_as_oops(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
             if language.lower().split("-")[0] in _OOPS_LANGUAGES:
                 words = oops_words(f"{label}@{language}")
                 called[tuple(word.lower() for word in words)].add(cls)
-    partners: dict[URIRef, set[URIRef]] = defaultdict(set)
+    labels: dict[URIRef, list[set[URIRef]]] = defaultdict(list)
     for same in called.values():
-        for cls in same if len(same) > 1 else ():
-            partners[cls] |= same - {cls, *ontology.equivalents.get(cls, ())}
+        for cls in same:
+            labels[cls].append(same)
+
+    def partners(cls: URIRef) -> set[URIRef]:
+        return set().union(*labels[cls]) - {cls, *ontology.equivalents.get(cls, ())}
+
     tags = {cls: oops_name(cls) for cls in ontology.classes}
     for group in oops_groups(tags, partners):
         yield Finding(group, f"{_names(group)} have the same label")

@@ -11,7 +11,15 @@ from symboslam.reasoning.axioms import Triple
 from symboslam.reasoning.pitfalls.model import Finding, Pitfall, Settings, Severity
 from symboslam.reasoning.pitfalls.ontology import Ontology
 from symboslam.reasoning.pitfalls.unread import not_read
-from symboslam.reasoning.pitfalls.uses import LIST, OBJECT, SUBJECT, first_uses, whole
+from symboslam.reasoning.pitfalls.uses import (
+    LIST,
+    OBJECT,
+    SUBJECT,
+    SWRL,
+    first_uses,
+    is_of_rules,
+    whole,
+)
 from symboslam.reasoning.vocabulary import local_name
 
 PITFALL = Pitfall(
@@ -45,6 +53,8 @@ _USES = {
     OWL.intersectionOf: SUBJECT | LIST,
     OWL.disjointUnionOf: SUBJECT | LIST,
     OWL.hasKey: SUBJECT,
+    SWRL.classPredicate: OBJECT,
+    SWRL.dataRange: OBJECT,
 }
 _AS_OOPS = (
     RDF.type, RDFS.domain, RDFS.range, RDFS.subClassOf, OWL.disjointWith, OWL.equivalentClass,
@@ -53,8 +63,12 @@ _JENA_TYPES = {OWL.Class, OWL.Restriction, RDFS.Class, RDFS.Datatype}
 
 
 def check(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
-    """Terms that stand where only a class or a datatype can stand, and are not declared as such."""
-    found = first_uses(ontology, _USES, OWL.AllDisjointClasses, _DECLARED)
+    """Terms that stand where only a class or a datatype can stand, and are not declared as such.
+
+    The terms of the language of rules (SWRL) need no declaration.
+    """
+    uses = first_uses(ontology, _USES, OWL.AllDisjointClasses, _DECLARED)
+    found = {term: triple for term, triple in uses.items() if not is_of_rules(term)}
     if found and ontology.unread:
         raise not_read(ontology)
     for term in sorted(found):
@@ -88,7 +102,8 @@ def check_as_oops(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
 
 def _finding(ontology: Ontology, term: URIRef, triple: Triple) -> Finding:
     message = f"is {_role(term, triple)}, but is not declared as a class"
-    return Finding((term,), message, (whole(ontology, triple),))
+    axiom = triple if is_of_rules(triple[1]) else whole(ontology, triple)
+    return Finding((term,), message, (axiom,))
 
 
 def _role(term: Node, triple: Triple) -> str:
@@ -101,4 +116,6 @@ def _role(term: Node, triple: Triple) -> str:
         return f"the {local_name(str(p))} of {local_name(str(s))}"
     if p == RDFS.subClassOf:
         return "stated to be below a class" if s == term else "stated to be above a class"
+    if is_of_rules(p):
+        return "used as a class in a rule"
     return f"used as a class (with {local_name(str(p))})"

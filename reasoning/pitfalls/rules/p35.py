@@ -10,7 +10,16 @@ from symboslam.reasoning.axioms import Triple
 from symboslam.reasoning.pitfalls.model import Finding, Pitfall, Settings, Severity
 from symboslam.reasoning.pitfalls.ontology import Ontology, is_builtin
 from symboslam.reasoning.pitfalls.unread import not_read
-from symboslam.reasoning.pitfalls.uses import LIST, OBJECT, SUBJECT, by_place, first_uses, whole
+from symboslam.reasoning.pitfalls.uses import (
+    LIST,
+    OBJECT,
+    SUBJECT,
+    SWRL,
+    by_place,
+    first_uses,
+    is_of_rules,
+    whole,
+)
 from symboslam.reasoning.vocabulary import local_name
 
 PITFALL = Pitfall(
@@ -49,6 +58,7 @@ _USES = {
     OWL.propertyChainAxiom: SUBJECT | LIST,
     OWL.hasKey: LIST,
     OWL.assertionProperty: OBJECT,
+    SWRL.propertyPredicate: OBJECT,
 }
 
 
@@ -88,7 +98,7 @@ def _predicates(ontology: Ontology) -> dict[URIRef, Triple]:
         if isinstance(p, URIRef)
         and not ontology.kinds.get(p, frozenset()) & _DECLARED
         and _namespace(p) in own
-        and not is_builtin(p)
+        and not (is_builtin(p) or is_of_rules(p))
     }
 
 
@@ -98,7 +108,8 @@ def _namespace(term: URIRef) -> str:
 
 def _finding(ontology: Ontology, term: URIRef, triple: Triple) -> Finding:
     message = f"is {_role(term, triple)}, but is not declared as a property"
-    return Finding((term,), message, (whole(ontology, triple),))
+    axiom = triple if is_of_rules(triple[1]) else whole(ontology, triple)
+    return Finding((term,), message, (axiom,))
 
 
 def _role(term: URIRef, triple: Triple) -> str:
@@ -114,4 +125,6 @@ def _role(term: URIRef, triple: Triple) -> str:
         return f"stated to be {where} the property {name}"
     if p == RDF.type:
         return "listed among disjoint properties"
+    if is_of_rules(p):
+        return "used as a property in a rule"
     return f"used as a property (with {local_name(str(p))})"

@@ -13,7 +13,7 @@ from symboslam.reasoning.pitfalls.model import (
     Settings,
     Severity,
 )
-from symboslam.reasoning.pitfalls.online import HTML, Answer, fetch, require
+from symboslam.reasoning.pitfalls.online import HTML, Answer, fetch, gaps, require
 from symboslam.reasoning.pitfalls.online import RDF as DATA
 from symboslam.reasoning.pitfalls.ontology import Ontology
 
@@ -33,8 +33,11 @@ PITFALL = Pitfall(
 def check(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
     """IRIs of the ontologies in given files at which there is neither RDF nor HTML.
 
+    If some IRIs could not be asked, the findings are kept, and every message ends with them.
+
     Raises:
-        NotCheckedError: the network may not be asked, or does not answer.
+        NotCheckedError: the network may not be asked, or an IRI could not be asked and nothing is
+            wrong with the others.
     """
     require(settings)
     iris = sorted(
@@ -53,13 +56,13 @@ def check(ontology: Ontology, settings: Settings) -> Iterator[Finding]:
     for iri in iris:
         if (problem := _problem(iri)) is not None:
             (missing if problem.final else silent).append(problem)
-    unasked = "; ".join(f"<{p.iri}> could not be asked: {p.problem}" for p in silent)
+    unasked = gaps((f"<{p.iri}>", f"could not be asked: {p.problem}") for p in silent)
     if unasked and not missing:
         raise NotCheckedError(unasked)
     for problem in missing:
         message = f"neither the ontology nor a page about it is at <{problem.iri}>"
         message += f": {problem.problem}" if problem.problem else ""
-        message += f" ({unasked})" if unasked else ""
+        message += f" (not everything was checked: {unasked})" if unasked else ""
         yield Finding((), message, ((URIRef(problem.iri), RDF.type, OWL.Ontology),))
 
 

@@ -61,8 +61,10 @@ def main() -> None:
         _stop_quietly()
     except KeyboardInterrupt:
         _fail("interrupted", 130)
+    except OSError as error:  # of the streams: all others are told by what reads and writes
+        _fail(f"cannot read or write: {error.strerror or error}", 2)
     except MemoryError:
-        _fail("out of memory; a smaller --bbox or fewer --cells needs less", 3)
+        _fail("out of memory; a smaller input (of a map: a smaller --bbox) needs less", 3)
     except Exception as error:  # the last resort: a defect of ours, told as one
         if os.environ.get("SYMBOSLAM_DEBUG"):
             raise

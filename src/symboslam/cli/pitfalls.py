@@ -27,6 +27,8 @@ symboslam pitfalls mine.ttl --baseline baseline.json
 
 symboslam pitfalls mine.owl --select P04,P06 --ignore P22 --imports ignore
 
+symboslam pitfalls https://w3id.org/symboslam/symboslam
+
 symboslam pitfalls --list
 """
 
@@ -46,7 +48,9 @@ def pitfalls(
     files: Annotated[
         list[str] | None,
         typer.Argument(
-            metavar="[FILE]...", help="Your ontology, in one file or several; ours if left out."
+            metavar="FILE...",
+            help="The ontology, in one file or several; or the IRI of a module of ours.",
+            show_default=False,
         ),
     ] = None,
     form: Annotated[
@@ -171,11 +175,13 @@ def pitfalls(
     if listed:
         _list()
         return
+    if not files or not all(name.strip() for name in files):
+        raise InputError("name the files of the ontology: symboslam pitfalls FILE...")
     if form not in FORMATS:
         raise InputError(f"--format {form}: known formats are {', '.join(FORMATS)}")
     if out is not None:
         check_writable(out)
-        if any(Path(file).resolve() == out.resolve() for file in files or ()):
+        if any(Path(file).resolve() == out.resolve() for file in files):
             raise InputError(f"--out {out} would overwrite the ontology")
     codes = choose(select or (), ignore or ())
     known = base.read_baseline(baseline) if baseline else None
@@ -189,7 +195,7 @@ def pitfalls(
     )
     with progress_bar() as progress:
         report = scan_pitfalls(
-            files or (),
+            files,
             settings,
             codes,
             follow=imports is Imports.follow,

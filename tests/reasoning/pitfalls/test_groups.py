@@ -51,6 +51,27 @@ SAME = {
         "[owl:onProperty :r ; owl:minQualifiedCardinality 1 ; owl:onClass owl:Thing]",
         "",
     ),
+    "one or more, and some": (
+        "[owl:onProperty :r ; owl:minCardinality 1]",
+        "[owl:onProperty :r ; owl:someValuesFrom owl:Thing]",
+        "",
+    ),
+    "one or more of a class, and some": (
+        "[owl:onProperty :r ; owl:onClass :A ; owl:minQualifiedCardinality 1]",
+        f"{SOME} :A ]",
+        "",
+    ),
+    "one or more values": (
+        "[owl:onProperty :r ; owl:minQualifiedCardinality 1 ; owl:onDataRange rdfs:Literal]",
+        "[owl:onProperty :r ; owl:someValuesFrom rdfs:Literal]",
+        "",
+    ),
+    "none or more": ("[owl:onProperty :r ; owl:minCardinality 0]", "owl:Thing", ""),
+    "a number of another datatype": (
+        '[owl:onProperty :r ; owl:maxCardinality "2"^^xsd:nonNegativeInteger]',
+        "[owl:onProperty :r ; owl:maxCardinality 02]",
+        "",
+    ),
     "values in another order": ('[owl:oneOf ("a" "b")]', '[owl:oneOf ("b" "a")]', ""),
     "facets in another order": (
         "[owl:onDatatype xsd:int; owl:withRestrictions ([xsd:minInclusive 1][xsd:maxInclusive 2])]",
@@ -68,6 +89,26 @@ DIFFERENT = {
     "not": (":A", "[owl:complementOf :A]", ""),
     "two empty nodes": ("[]", "[]", ""),
     "union with everything": (":A", "[owl:unionOf (:A owl:Thing)]", ""),
+    "one or more of another class": (
+        "[owl:onProperty :r ; owl:onClass :A ; owl:minQualifiedCardinality 1]",
+        f"{SOME} :B ]",
+        "",
+    ),
+    "two or more, and some": (
+        "[owl:onProperty :r ; owl:onClass :A ; owl:minQualifiedCardinality 2]",
+        f"{SOME} :A ]",
+        "",
+    ),
+    "one at most, and some": (
+        "[owl:onProperty :r ; owl:maxCardinality 1]",
+        "[owl:onProperty :r ; owl:someValuesFrom owl:Thing]",
+        "",
+    ),
+    "ten and one": (
+        "[owl:onProperty :r ; owl:minCardinality 10]",
+        "[owl:onProperty :r ; owl:minCardinality 1]",
+        "",
+    ),
     "another number": (
         "[owl:onProperty :r ; owl:minCardinality 1]",
         "[owl:onProperty :r ; owl:minCardinality 2]",

@@ -451,10 +451,11 @@ def test_sarif_results(run: dict[str, Any]) -> None:
     assert [place["fullyQualifiedName"] for place in whole] == ["https://example.org/o"]
     assert "region" not in results[9]["locations"][0]["physicalLocation"]
     assert [r["level"] for r in results if r["ruleId"] == "P14"] == ["note"]
-    assert [len(r["suppressions"]) for r in results] == [0, 0, 0, 0, 1, 0, 0, 0, 0, 0]
+    assert [len(r["suppressions"]) for r in results] == [0, 0, 0, 0, 1, 1, 0, 0, 0, 0]
     assert results[4]["suppressions"] == [
         {"kind": "inSource", "status": "accepted", "justification": "old names"}
     ]
+    assert [s["kind"] for s in results[5]["suppressions"]] == ["external"]  # in the baseline
     states = [r["baselineState"] for r in results]
     assert states == ["new"] * 5 + ["unchanged"] + ["new"] * 4
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -93,3 +94,46 @@ def test_no_nltk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 def test_reading_hides_no_module(dictionary: module.WordNet) -> None:
     assert dictionary.known("statistics")
     assert sys.modules.get("scipy.stats", True) is not None
+
+
+DAMAGE: dict[str, Callable[[bytes], bytes]] = {
+    "nothing": lambda text: b"",
+    "broken off within a line": lambda text: text[:300_000],
+    "broken off after a line": lambda text: text[: text.index(b"\n", 300_000) + 1],
+    "shifted": lambda text: b"  \n" + text,
+    "synsets that are none": lambda text: text.replace(b" n 0", b" n zz"),
+    "lexicographer files that are none": lambda text: text.replace(b" 06 n ", b" 99 n "),
+}
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("damage", DAMAGE)
+def test_damaged(
+    dictionary: module.WordNet, tmp_path: Path, damage: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    folder, code = tmp_path / "wordnet", "P31"
+    folder.mkdir()
+    for name in module._NEEDED:
+        (folder / name).write_bytes((FOLDER / name).read_bytes())
+    data = folder / "data.noun"
+    data.write_bytes(DAMAGE[damage](data.read_bytes()))
+    path = tmp_path / "o.ttl"
+    owl = "http://www.w3.org/2002/07/owl#"
+    path.write_text(
+        f"<https://e.org/o#Car> a <{owl}Class> ; <{owl}equivalentClass> <https://e.org/o#Vehicle> ."
+    )
+    report = scan_pitfalls([path], Settings(wordnet=folder), codes=[code])
+    result = next(r for r in report.results if r.pitfall.code == code)
+    assert result.status is Status.NOT_CHECKED
+    assert result.reason == f"WordNet at {folder} is damaged (data.noun): install it anew"
+    assert capfd.readouterr().err == ""
+
+
+@pytest.mark.parametrize("line", ["car n x 1 @ 5 1 00000001  \n", "car n\n", "", "car n 1 1 @"])
+def test_damaged_index(dictionary: module.WordNet, tmp_path: Path, line: str) -> None:
+    for name in module._NEEDED:
+        (tmp_path / name).write_bytes((FOLDER / name).read_bytes())
+    (tmp_path / "index.noun").write_text(line)
+    damaged = rf"WordNet at {tmp_path} is damaged \(index.noun\): install it anew"
+    with pytest.raises(NotCheckedError, match=damaged):
+        module.WordNet(tmp_path).synsets("car")

@@ -2,6 +2,14 @@
 
 RESTRICTION = "[ a owl:Restriction ; owl:onProperty :p ; "
 
+RULE = (
+    "@prefix swrl: <http://www.w3.org/2003/11/swrl#> . :x a swrl:Variable . "
+    "[] a swrl:Imp ; swrl:body [ a swrl:AtomList ; rdf:rest () ; rdf:first "
+    "[ a swrl:ClassAtom ; swrl:classPredicate :A ; swrl:argument1 :x ] ] ; "
+    "swrl:head [ a swrl:AtomList ; rdf:rest () ; rdf:first [ a swrl:IndividualPropertyAtom ; "
+    "swrl:propertyPredicate :p ; swrl:argument1 :x ; swrl:argument2 :x ] ] . "
+)
+
 POSITIVE = {
     "a class": (":A a owl:Class .", [("A",)]),
     "annotations relate nothing": (
@@ -47,6 +55,7 @@ NEGATIVE = {
     "a chain": ":p a owl:ObjectProperty ; owl:propertyChainAxiom (:q :r) . "
         ":q a owl:ObjectProperty . :r a owl:ObjectProperty .",
     "used": ':d a owl:DatatypeProperty . <https://example.org/x> :d "1" .',
+    "in a rule": RULE + ":A a owl:Class . :p a owl:ObjectProperty .",
     "a negative assertion": ":p a owl:ObjectProperty . [] a owl:NegativePropertyAssertion ; "
         "owl:sourceIndividual :x ; owl:assertionProperty :p ; owl:targetIndividual :y .",
 }  # fmt: skip

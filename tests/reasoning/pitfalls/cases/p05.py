@@ -17,6 +17,9 @@ POSITIVE = {
     "of itself": (
         f":p a owl:ObjectProperty ; owl:inverseOf :p ; rdfs:domain :A ; rdfs:range :B . {CLASSES}",
         [("p",)]),
+    "equivalent to the inverse": (
+        f":p a owl:ObjectProperty ; owl:equivalentProperty [ owl:inverseOf :q ] ; "
+        f"rdfs:domain :A . {Q} rdfs:range :B . {CLASSES}", [("p", "q")]),
 }  # fmt: skip
 NEGATIVE = {
     "they fit": f"{P} rdfs:domain :A ; rdfs:range :B . "
@@ -27,6 +30,11 @@ NEGATIVE = {
     f"{Q} rdfs:range [ a owl:Class ; owl:unionOf (:B :A) ] . {CLASSES}",
     "several domains, and their intersection": f"{P} rdfs:domain :A, :B . "
     f"{Q} rdfs:range [ a owl:Class ; owl:intersectionOf (:B :A) ] . {CLASSES}",
+    "one or more, and some": f"{P} rdfs:domain [ a owl:Restriction ; owl:onProperty :r ; "
+    f"owl:minCardinality 1 ] . {Q} rdfs:range [ a owl:Restriction ; owl:onProperty :r ; "
+    f"owl:someValuesFrom owl:Thing ] . {CLASSES} :r a owl:ObjectProperty .",
+    "equivalent to an inverse that fits": ":p a owl:ObjectProperty ; rdfs:domain :A ; "
+    f"owl:equivalentProperty [ owl:inverseOf :q ] . {Q} rdfs:range :A . {CLASSES}",
     "nothing to compare": f"{P} rdfs:domain :A . {Q} rdfs:domain :B . {CLASSES}",
     "an inverse as an expression": f":p a owl:ObjectProperty ; rdfs:domain :A ; rdfs:range :B ; "
     f"owl:inverseOf [ owl:inverseOf :p ] . {CLASSES}",
@@ -42,6 +50,9 @@ STRICT = {
     "unions in another order are alike": (
         f"{P} rdfs:domain [ a owl:Class ; owl:unionOf (:A :B) ] . "
         f"{Q} rdfs:range [ a owl:Class ; owl:unionOf (:B :A) ] . {CLASSES}", []),
+    "equivalent to the inverse, by OOPS!": (
+        f":p a owl:ObjectProperty ; owl:equivalentProperty [ owl:inverseOf :q ] ; "
+        f"rdfs:domain :A . {Q} rdfs:range :B . {CLASSES}", []),
     "the first of two": (
         f"{P} rdfs:domain :A ; owl:inverseOf :r . {Q} rdfs:range :B . "
         f":r a owl:ObjectProperty ; rdfs:range :C . {CLASSES}", [("p", "q")]),

@@ -12,6 +12,11 @@ POSITIVE = {
         _TWO + ":p a owl:ObjectProperty ; owl:propertyDisjointWith :q . :q a owl:ObjectProperty .",
         [()],
     ),
+    "an empty class": (_TWO + ":A rdfs:subClassOf owl:Nothing .", [()]),
+    "what is in both is something": (
+        _TWO + ":C a owl:Class ; owl:equivalentClass [ owl:intersectionOf ( :A :B ) ] .",
+        [()],
+    ),
     "a complement that says nothing of a class": (
         _TWO + ":p a owl:ObjectProperty ; rdfs:domain [ a owl:Class ; owl:complementOf :A ] .",
         [()],
@@ -23,6 +28,12 @@ NEGATIVE = {
     "disjointUnionOf": _TWO + ":C a owl:Class ; owl:disjointUnionOf ( :A :B ) .",
     "below a complement": _TWO + ":A rdfs:subClassOf [ a owl:Class ; owl:complementOf :B ] .",
     "a complement by name": _TWO + ":A owl:complementOf :B .",
+    "nothing is in both": _TWO + "[] a owl:Class ; owl:intersectionOf ( :A :B ) ; "
+    "rdfs:subClassOf owl:Nothing .",
+    "what is in both is the same as nothing": _TWO + "owl:Nothing owl:equivalentClass "
+    "[ a owl:Class ; owl:intersectionOf ( :A :B ) ] .",
+    "what is in both has a name": _TWO + ":Both a owl:Class ; rdfs:subClassOf owl:Nothing ; "
+    "owl:equivalentClass [ a owl:Class ; owl:intersectionOf ( :A :B ) ] .",
     "one class": ":A a owl:Class .",
     "a chain": _TWO + ":A rdfs:subClassOf :B . :B rdfs:subClassOf owl:Thing .",
     "equivalent": _TWO + ":A owl:equivalentClass :B .",

@@ -14,6 +14,15 @@ POSITIVE = {
         f":hasPart a owl:ObjectProperty . {_OTHER} a owl:ObjectProperty .",
         [("hasPart", "hasPart")],
     ),
+    "inverse of something else": (
+        ":ab a owl:ObjectProperty ; owl:inverseOf :c . :Ab a owl:ObjectProperty .",
+        [("Ab", "ab")],
+    ),
+    "both, and the third is related to each": (
+        ":ab a owl:ObjectProperty . :Ab a owl:ObjectProperty . "
+        ":AB a owl:ObjectProperty ; owl:inverseOf :ab ; owl:propertyDisjointWith :Ab .",
+        [("Ab", "ab")],
+    ),
     "equivalent to something else": (
         ":ab a owl:ObjectProperty ; owl:equivalentProperty :c . :Ab a owl:ObjectProperty .",
         [("Ab", "ab")],
@@ -30,6 +39,14 @@ NEGATIVE = {
     "one above the other": (
         ":ab a owl:ObjectProperty ; rdfs:subPropertyOf :c . "
         ":c a owl:ObjectProperty ; rdfs:subPropertyOf :Ab . :Ab a owl:ObjectProperty ."
+    ),
+    "inverse": ":ab a owl:ObjectProperty ; owl:inverseOf :Ab . :Ab a owl:ObjectProperty .",
+    "disjoint": (
+        ":ab a owl:ObjectProperty . :Ab owl:propertyDisjointWith :ab ; a owl:ObjectProperty ."
+    ),
+    "all disjoint, by way of one above": (
+        ":ab a owl:DatatypeProperty . :Ab a owl:DatatypeProperty ; rdfs:subPropertyOf :c . "
+        "[] a owl:AllDisjointProperties ; owl:members (:ab :c) ."
     ),
     "of different kinds": ":ab a owl:ObjectProperty . :Ab a owl:DatatypeProperty .",
     "deprecated": ":ab a owl:ObjectProperty . :Ab a owl:ObjectProperty ; owl:deprecated true .",

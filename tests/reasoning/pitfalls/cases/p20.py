@@ -12,6 +12,21 @@ POSITIVE = {
         'rdfs:comment "Fire station"@en .',
         [("A",)],
     ),
+    "the same in SKOS": (
+        ':A a owl:Class ; skos:prefLabel "House"@en ; skos:definition "house"@en .',
+        [("A",)],
+    ),
+    "the second comment repeats the second label": (
+        ':A a owl:Class ; rdfs:label "House" ; skos:prefLabel "Hut"@en ; '
+        'rdfs:comment "Where people live." ; dcterms:description "hut"@EN .',
+        [("A",)],
+    ),
+    "swapped in SKOS": (
+        ':A a owl:Class ; skos:prefLabel "A building where fire engines stand"@en ; '
+        'skos:definition "Fire station"@en .',
+        [("A",)],
+    ),
+    "an empty definition": (':A a owl:Class ; skos:definition " " .', [("A",)]),
 }
 NEGATIVE = {
     "as it should be": ':A a owl:Class ; rdfs:label "House" ; rdfs:comment "Where people live." .',
@@ -22,10 +37,18 @@ NEGATIVE = {
     "one comment that explains": (
         ':A a owl:Class ; rdfs:label "one two three four", "one" ; rdfs:comment "Two words." .'
     ),
+    "two labels alike": (
+        ':A a owl:Class ; rdfs:label "House" ; skos:prefLabel "House" ; '
+        'skos:definition "Where people live." .'
+    ),
     "deprecated": ':A a owl:Class ; owl:deprecated true ; rdfs:label "" .',
     "no literal": ":A a owl:Class ; rdfs:label :B ; rdfs:comment :B .",
 }
 STRICT = {
+    "OOPS! ignores SKOS": (
+        ':A a owl:Class ; skos:prefLabel "House"@en ; skos:definition "house"@en .',
+        [],
+    ),
     "OOPS! counts words": (
         ':A a owl:Class ; rdfs:label "fire alarm" ; rdfs:comment "Alarm." .',
         [("A",)],

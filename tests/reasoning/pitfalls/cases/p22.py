@@ -23,6 +23,11 @@ POSITIVE = {
         ":q a owl:ObjectProperty . :Quality a owl:ObjectProperty .",
         [("river",), ("Quality",)],
     ),
+    "one finding for each name": (
+        ":House a owl:Class . :Road a owl:Class . :Wood a owl:Class . "
+        ":river a owl:Class . :lake a owl:Class .",
+        [("river",), ("lake",)],
+    ),
     "hyphens and capitals in one finding": (
         ":HouseBoat a owl:Class . :RoadBridge a owl:Class . :river-bank a owl:Class .",
         [("river-bank",)],

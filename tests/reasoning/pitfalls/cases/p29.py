@@ -15,6 +15,9 @@ NEGATIVE = {
     "no characteristic": f":p a owl:ObjectProperty ; rdfs:domain :A ; rdfs:range :B . {CLASSES}",
     "equivalent over a third": f"{P} rdfs:domain :A ; rdfs:range :B . {CLASSES} "
     ":A owl:equivalentClass :C . :B owl:equivalentClass :C .",
+    "one or more, and some": f"{P} rdfs:domain [ a owl:Restriction ; owl:onProperty :p ; "
+    "owl:minCardinality 1 ] ; rdfs:range [ a owl:Restriction ; owl:onProperty :p ; "
+    f"owl:someValuesFrom owl:Thing ] . {CLASSES}",
     "several, and their intersection": f"{P} rdfs:domain :A, :B ; "
     f"rdfs:range [ a owl:Class ; owl:intersectionOf (:A :B) ] . {CLASSES}",
 }

@@ -15,6 +15,11 @@ POSITIVE = {
         ":Car a owl:Class . :Auto a owl:Class . :Automobile a owl:Class .",
         [("Auto", "Automobile", "Car")],
     ),
+    "the same word is not compared, another one is": (
+        ":Car a owl:Class ; owl:disjointWith :Auto . <https://example.org/q#Car> a owl:Class . "
+        ":Auto a owl:Class .",
+        [("Auto", "Car")],
+    ),
     "a plural": (":Cars a owl:Class . :Automobile a owl:Class .", [("Automobile", "Cars")]),
 }
 NEGATIVE = {
@@ -33,6 +38,10 @@ NEGATIVE = {
     ),
     "parts of a disjoint union": (
         ":Car a owl:Class . :Auto a owl:Class . :B owl:disjointUnionOf ( :Car :Auto ) ."
+    ),
+    "in a circle": (
+        ":Car a owl:Class ; rdfs:subClassOf :B . :B rdfs:subClassOf :Auto . "
+        ":Auto a owl:Class ; rdfs:subClassOf :Car ."
     ),
     "deprecated": ":Car a owl:Class . :Auto a owl:Class ; owl:deprecated true .",
     "a label in another language": (

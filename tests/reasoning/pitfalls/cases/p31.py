@@ -18,12 +18,18 @@ POSITIVE = {
         ":ElectricCar a owl:Class ; owl:equivalentClass :ElectricVehicle .",
         [("ElectricCar", "ElectricVehicle")],
     ),
+    "over a third": (
+        ":Aaa a owl:Class ; owl:equivalentClass :Dog, :Animal . :Dog a owl:Class .",
+        [("Animal", "Dog")],
+    ),
 }
 NEGATIVE = {
     "synonyms": ":Car a owl:Class ; owl:equivalentClass :Automobile .",
     "letters": ":ClassA a owl:Class ; owl:equivalentClass :ClassB .",
     "no words": ":Zqxa a owl:Class ; owl:equivalentClass :Zqxb .",
     "the same name": ":Car a owl:Class ; owl:equivalentClass <https://example.org/p#Car> .",
+    "both said to be nothing": ":Car a owl:Class ; owl:equivalentClass owl:Nothing . "
+    ":Vehicle a owl:Class ; owl:equivalentClass owl:Nothing .",
     "not declared": ":Car a owl:Class . :Vehicle a owl:Class .",
     "a defined class": ":Car a owl:Class ; owl:equivalentClass [ owl:unionOf ( :Vehicle :B ) ] .",
     "deprecated": ":Car a owl:Class ; owl:deprecated true ; owl:equivalentClass :Vehicle .",

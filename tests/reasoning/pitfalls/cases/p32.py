@@ -24,6 +24,24 @@ POSITIVE = {
         'owl:equivalentClass :A . :C a owl:Class ; rdfs:label "a" .',
         [("A", "B", "C")],
     ),
+    "regions of one language": (
+        ':A a owl:Class ; rdfs:label "Car"@en . :B a owl:Class ; rdfs:label "car"@en-GB .',
+        [("A", "B")],
+    ),
+    "with and without a language": (
+        ':A a owl:Class ; rdfs:label "Car"@en . :B a owl:Class ; rdfs:label "Car" .',
+        [("A", "B")],
+    ),
+    "without a language, and two languages": (
+        ':A a owl:Class ; rdfs:label "Gift"@en . :B a owl:Class ; rdfs:label "Gift"@de . '
+        ':C a owl:Class ; rdfs:label "Gift" .',
+        [("A", "B", "C")],
+    ),
+    "equivalent to the one without a language, in one language of two": (
+        ':A a owl:Class ; rdfs:label "Gift"@en . :B a owl:Class ; rdfs:label "Gift"@de . '
+        ':C a owl:Class ; rdfs:label "Gift" ; owl:equivalentClass :A .',
+        [("B", "C")],
+    ),
 }
 NEGATIVE = {
     "different languages": (
@@ -36,6 +54,11 @@ NEGATIVE = {
     "equivalent": (
         ':A a owl:Class ; rdfs:label "a" ; owl:equivalentClass :X . '
         ':B a owl:Class ; rdfs:label "a" ; owl:equivalentClass :X .'
+    ),
+    "one class, with and without a language": ':A a owl:Class ; rdfs:label "Car", "Car"@en .',
+    "equivalent, with and without a language": (
+        ':A a owl:Class ; rdfs:label "a"@en ; owl:equivalentClass :B . '
+        ':B a owl:Class ; rdfs:label "a" .'
     ),
     "deprecated": (
         ':A a owl:Class ; rdfs:label "a" . :B a owl:Class ; rdfs:label "a" ; owl:deprecated true .'

@@ -4,6 +4,14 @@ _P = ":p a owl:ObjectProperty ; "
 _A = ":A a owl:Class ; "
 _SOME = _P.replace(";", ".") + _A + "rdfs:subClassOf [ a owl:Restriction ; owl:onProperty :p ; "
 
+_RULE = (
+    "@prefix swrl: <http://www.w3.org/2003/11/swrl#> . :x a swrl:Variable . "
+    "[] a swrl:Imp ; swrl:body [ a swrl:AtomList ; rdf:rest () ; rdf:first "
+    "[ a swrl:ClassAtom ; swrl:classPredicate :A ; swrl:argument1 :x ] ] ; "
+    "swrl:head [ a swrl:AtomList ; rdf:rest () ; rdf:first [ a swrl:IndividualPropertyAtom ; "
+    "swrl:propertyPredicate :p ; swrl:argument1 :x ; swrl:argument2 :x ] ] . "
+)
+
 POSITIVE = {
     "a domain": (_P + "rdfs:domain :X .", [("X",)]),
     "a range": (_P + "rdfs:range :X .", [("X",)]),
@@ -22,8 +30,10 @@ POSITIVE = {
     "a property as a class": (_P + "rdfs:domain :p .", [("p",)]),
     "a datatype of nobody's": (":p a owl:DatatypeProperty ; rdfs:range :X .", [("X",)]),
     "it has a label": (_P + 'rdfs:domain :X . :X rdfs:label "x" .', [("X",)]),
+    "in a rule": (_P.replace(";", ".") + _RULE, [("A",)]),
 }
 NEGATIVE = {
+    "a rule": _RULE + ":A a owl:Class . :p a owl:ObjectProperty .",
     "declared": _P + "rdfs:domain :A . :A a owl:Class .",
     "declared in RDFS": _P + "rdfs:domain :A . :A a rdfs:Class .",
     "a declared datatype": ":p a owl:DatatypeProperty ; rdfs:range :D . :D a rdfs:Datatype .",
@@ -33,6 +43,10 @@ NEGATIVE = {
     "members of another list": "[] a owl:AllDifferent ; owl:members ( :i :j ) .",
 }
 STRICT = {
+    "the words of rules, by OOPS!": (
+        "@prefix swrl: <http://www.w3.org/2003/11/swrl#> . :x a swrl:Variable .",
+        [("Variable",)],
+    ),
     "a domain of which nothing is stated, by OOPS!": (_P + "rdfs:domain :X .", [("X",)]),
     "a domain with a label, by OOPS!": (_P + 'rdfs:domain :X . :X rdfs:label "x" .', []),
     "a type with a label, by OOPS!": (':i a :X . :X rdfs:label "x" .', [("X",)]),
