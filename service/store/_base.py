@@ -170,6 +170,18 @@ class Store(ABC):
         """
 
     @abstractmethod
+    async def patch(self, removed: str, added: str) -> None:
+        """Remove and add statements, all of it or nothing.
+
+        Args:
+            removed: lines of N-Quads without blank nodes, each in a named graph.
+            added: the same; what is in both stays.
+
+        Raises:
+            StoreError: it cannot be written.
+        """
+
+    @abstractmethod
     async def has_graph(self, graph: str | None) -> bool:
         """Whether a graph is there; the default graph always is."""
 
