@@ -14,6 +14,7 @@ from symboslam.reasoning.pitfalls.ontology import Ontology, is_builtin
 SWRL = Namespace("http://www.w3.org/2003/11/swrl#")
 _SWRLB = "http://www.w3.org/2003/11/swrlb#"
 
+_LONGEST_WAY = 20
 _WHOLES: WeakKeyDictionary[Ontology, dict[Node, Triple]] = WeakKeyDictionary()
 
 SUBJECT, OBJECT, LIST = 1, 2, 4
@@ -44,7 +45,10 @@ def first_uses(
     for term, triple in _uses(ontology, positions, block):
         if isinstance(term, URIRef) and term not in done and not is_builtin(term):
             rank = by_place(ontology, triple)
-            if term not in found or rank < found[term][0]:
+            if term in found and rank == found[term][0]:
+                if _way(ontology, triple) < _way(ontology, found[term][1]):
+                    found[term] = (rank, triple)
+            elif term not in found or rank < found[term][0]:
                 found[term] = (rank, triple)
     return {term: triple for term, (_, triple) in found.items()}
 
@@ -80,6 +84,17 @@ def by_place(ontology: Ontology, triple: Triple) -> tuple[bool, str, int, str]:
     if place is None:
         return True, "", 0, names
     return place.file not in ontology.given, place.file, place.line or 0, names
+
+
+def _way(ontology: Ontology, triple: Triple) -> list[str]:
+    """The predicates that lead to an anonymous subject, the nearest first: its name for sorting."""
+    way: list[str] = []
+    node: Node | None = triple[0]
+    while isinstance(node, BNode) and len(way) < _LONGEST_WAY:
+        holders = ontology.graph.subject_predicates(node)
+        node, predicate = min(holders, key=lambda pair: str(pair[1]), default=(None, ""))
+        way.append(str(predicate))
+    return way
 
 
 def whole(ontology: Ontology, triple: Triple) -> Triple:
