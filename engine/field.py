@@ -18,7 +18,8 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from symboslam.engine._base import Contributions, Evidence, normalised
+from symboslam.engine._base import Contributions, Evidence
+from symboslam.engine.density import Density
 from symboslam.engine.grid import Cells, Grid
 from symboslam.engine.landmarks import LandmarkMap
 from symboslam.engine.settings import Settings
@@ -137,7 +138,7 @@ class FieldEvidence(Evidence):
         site: Floats,
         absence: Floats,
     ) -> None:
-        self._xy, self._grid, self._settings = landmarks.xy, grid, settings
+        self._xy, self._grid = landmarks.xy, grid
         self.bandwidth = bandwidth
         width = np.maximum(site, bandwidth)
         self._kernels = [self._kernels_of(np.flatnonzero(width == w), w) for w in np.unique(width)]
@@ -147,9 +148,9 @@ class FieldEvidence(Evidence):
         finest = self._spread(self._plain - self._loss)
         self.absence = crowding_share(finest) if settings.absence is None else settings.absence
         self._ground = self.absence * absence
-        self._finest = finest + self._ground
-        self._inside = np.zeros((grid.cells, grid.cells), np.int64)
-        np.add.at(self._inside, grid.finest_of(landmarks.x, landmarks.y), 1)
+        inside = np.zeros((grid.cells, grid.cells), np.int64)
+        np.add.at(inside, grid.finest_of(landmarks.x, landmarks.y), 1)
+        self.density = Density(grid, settings.threshold, finest + self._ground, inside)
 
     def _kernels_of(self, landmark: Ints, sigma: float) -> Kernels:
         columns, rows = (
@@ -191,22 +192,11 @@ class FieldEvidence(Evidence):
 
     def of(self, cells: Cells) -> Floats:
         """(m, K) mean of the field over each cell, per hectare."""
-        if not len(cells):
-            return np.zeros((0, self._finest.shape[2]))
-        depth = int(cells.depth[0])
-        span = int(self._grid.span(depth))
-        sums = self._grid.coarsen(self._finest, depth)[cells.row, cells.column]
-        return np.asarray(sums, np.float64) / span**2
+        return self.density.of(cells)
 
     def settled(self, cells: Cells, evidence: Floats) -> NDArray[np.bool_]:
         """Where all finest cells inside agree, or the largest P reaches the threshold."""
-        depth = int(cells.depth[0])
-        best = self._finest.argmax(2)
-        votes = np.stack([best == k for k in range(self._finest.shape[2])], 2)
-        agree = self._grid.coarsen(votes, depth).max(2) == int(self._grid.span(depth)) ** 2
-        bare = self._grid.coarsen(self._inside, depth) == 0
-        certain = normalised(evidence).max(1, initial=0) >= self._settings.threshold
-        return np.asarray((agree & bare)[cells.row, cells.column] | certain)
+        return self.density.settled(cells, evidence)
 
     def contributions(self, cells: Cells) -> Iterator[Contributions]:
         """Each landmark's weight times its kernel over the cell, less what neighbours deny."""

@@ -105,6 +105,7 @@ def quadtree(
     grid: Grid,
     evidence: Callable[[Cells], Floats],
     settled: Callable[[Cells, Floats], NDArray[np.bool_]],
+    roots: Cells | None = None,
 ) -> tuple[Cells, Floats]:
     """Split cells into quadrants until each is settled (design 6, paper section on grid maps).
 
@@ -113,12 +114,13 @@ def quadtree(
         evidence: (m, K) evidence of m cells of one level.
         settled: which of the cells, given their evidence, are not split any further; called for
             all levels but the finest.
+        roots: coarsest cells to begin with; all by default.
 
     Returns:
         The segments, level by level, and their (s, K) evidence.
     """
     kept: list[tuple[Cells, Floats]] = []
-    open_cells = grid.level(0)
+    open_cells = grid.level(0) if roots is None else roots
     for depth in range(grid.depth + 1):
         found = evidence(open_cells)
         done = np.ones(len(open_cells), bool) if depth == grid.depth else settled(open_cells, found)
