@@ -66,7 +66,9 @@ def classify(
         inherit=settings.empty == "inherit",
     )  # fmt: skip
     tell("drawing segments", 0.9)
-    config = configuration(settings, scheme or next(iter(knowledge.schemes)), evidence)
+    config = configuration(settings, scheme or next(iter(knowledge.schemes)))
+    if isinstance(evidence, FieldEvidence):  # what was left to the map
+        config |= {"absence": evidence.absence, "bandwidth": evidence.bandwidth}
     counts = sums(grid, inside(grid, landmarks.x, landmarks.y), segments.cells)
     return assemble(grid, segments, counts, landmarks, knowledge, config, evidence)
 
@@ -107,12 +109,9 @@ def assemble(
     )
 
 
-def configuration(settings: Settings, scheme: str, evidence: Evidence) -> dict[str, Any]:
-    """Every setting in force; those that were left to the map as they were in the end."""
-    found = {**settings.as_dict(), "scheme": scheme, "segmentation": "grid"}
-    if isinstance(evidence, FieldEvidence):
-        found |= {"absence": evidence.absence, "bandwidth": evidence.bandwidth}
-    return found
+def configuration(settings: Settings, scheme: str) -> dict[str, Any]:
+    """Every setting in force, as keywords of ``classify``."""
+    return {**settings.as_dict(), "scheme": scheme, "segmentation": "grid"}
 
 
 def evidence_of(
@@ -123,17 +122,33 @@ def evidence_of(
     settings: Settings,
 ) -> Evidence:
     """The evidence that the settings ask for."""
-    if settings.measure == "direct":
-        proximity = knowledge.direct(scheme)
-        if settings.importance == "entropy":
-            proximity = proximity * knowledge.importance("path", scheme)[:, None]
-    else:
-        proximity = knowledge.weights(settings.measure, scheme, settings.importance)
+    proximity = proximity_of(knowledge, scheme, settings)
     weight = proximity[landmarks.feature] * landmarks.confidence[:, None]
     if settings.evidence == "pairs":
         return PairEvidence(landmarks, weight, grid, settings)
-    absent = [i for i in map(knowledge.index_of, knowledge.absence) if i is not None]
-    absence = proximity[absent].sum(0) if absent else np.zeros(proximity.shape[1])
-    bandwidth = settings.bandwidth or knowledge.bandwidth(scheme) or min(grid.step) / 3
     site = np.array([f.site for f in knowledge.features])[landmarks.feature]
-    return FieldEvidence(landmarks, weight, grid, settings, bandwidth, site, absence)
+    return FieldEvidence(
+        landmarks, weight, grid, settings, bandwidth_of(knowledge, scheme, grid, settings), site,
+        ground_of(knowledge, proximity),
+    )  # fmt: skip
+
+
+def proximity_of(knowledge: Knowledge, scheme: str | None, settings: Settings) -> Floats:
+    """(n, K) semantic proximity of each feature, times its importance unless that is off."""
+    if settings.measure != "direct":
+        return knowledge.weights(settings.measure, scheme, settings.importance)
+    proximity = knowledge.direct(scheme)
+    if settings.importance == "entropy":
+        proximity = proximity * knowledge.importance("path", scheme)[:, None]
+    return proximity
+
+
+def ground_of(knowledge: Knowledge, proximity: Floats) -> Floats:
+    """(K,) what ground without landmarks indicates, from (n, K) proximities of all features."""
+    absent = [i for i in map(knowledge.index_of, knowledge.absence) if i is not None]
+    return proximity[absent].sum(0) if absent else np.zeros(proximity.shape[1])
+
+
+def bandwidth_of(knowledge: Knowledge, scheme: str | None, grid: Grid, settings: Settings) -> float:
+    """Standard deviation of the kernel in metres: as set, the ontology's, or the grid's."""
+    return settings.bandwidth or knowledge.bandwidth(scheme) or min(grid.step) / 3

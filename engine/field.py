@@ -57,12 +57,19 @@ class Bands:
     @classmethod
     def over(cls, positions: Floats, origin: float, step: float, cells: int, sigma: float) -> Bands:
         """The bands of Gaussians at ``positions`` (metres) with standard deviation ``sigma``."""
-        width = min(math.ceil(2 * REACH * sigma / step) + 1, cells)
-        first = np.floor((positions - REACH * sigma - origin) / step).astype(np.int64)
-        first = np.clip(first, 0, cells - width)
+        first, width = cls.span(positions, origin, step, cells, sigma)
         edges = origin + (first[:, None] + np.arange(width + 1)) * step
         below = _erf((edges - positions[:, None]) / (sigma * math.sqrt(2)))
         return cls(first, np.asarray(below, np.float64) / 2)
+
+    @staticmethod
+    def span(
+        positions: Floats, origin: float, step: float, cells: int, sigma: float
+    ) -> tuple[Ints, int]:
+        """(n,) first column that each kernel reaches, and how many columns from there on."""
+        width = min(math.ceil(2 * REACH * sigma / step) + 1, cells)
+        first = np.floor((positions - REACH * sigma - origin) / step).astype(np.int64)
+        return np.clip(first, 0, cells - width), width
 
     @classmethod
     def joined(cls, parts: list[Bands], order: Ints) -> Bands:
@@ -126,6 +133,12 @@ class FieldEvidence(Evidence):
         site: (n,) radius in metres of the ground that each landmark stands for; where it exceeds
             the bandwidth the kernel is as wide, and as high in the middle, so it says more in all.
         absence: (K,) what ground without landmarks indicates, 0 where nothing.
+
+    Attributes:
+        bandwidth: as given.
+        absence: evidence of unmarked ground per hectare, as set or estimated.
+        field: (cells, cells, K) what landmarks add to each finest cell, per hectare.
+        density: the field and the ground's evidence.
     """
 
     def __init__(
@@ -145,12 +158,12 @@ class FieldEvidence(Evidence):
         loss = settings.dissimilarity * weight * dissimilarity(self._xy, weight, CLOSE * bandwidth)
         size = np.minimum(width / bandwidth, WIDEST)[:, None] ** 2
         self._plain, self._loss = weight * size, loss * size
-        finest = self._spread(self._plain - self._loss)
-        self.absence = crowding_share(finest) if settings.absence is None else settings.absence
+        self.field = self._spread(self._plain - self._loss)
+        self.absence = crowding_share(self.field) if settings.absence is None else settings.absence
         self._ground = self.absence * absence
         inside = np.zeros((grid.cells, grid.cells), np.int64)
         np.add.at(inside, grid.finest_of(landmarks.x, landmarks.y), 1)
-        self.density = Density(grid, settings.threshold, finest + self._ground, inside)
+        self.density = Density(grid, settings.threshold, self.field + self._ground, inside)
 
     def _kernels_of(self, landmark: Ints, sigma: float) -> Kernels:
         columns, rows = (

@@ -1,0 +1,274 @@
+"""LiveMap: a map whose landmarks come, change and go; what they touch is classified anew.
+
+The same evidence and the same cutting as in ``classify``, given the landmarks around the change
+alone. After each change the map is what ``classify`` makes of all its landmarks with the settings
+in ``config``, which are those asked for and the bandwidth and absence in force.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from symboslam.engine._base import Evidence
+from symboslam.engine.classify import (
+    assemble,
+    bandwidth_of,
+    classify,
+    configuration,
+    evidence_of,
+    ground_of,
+    proximity_of,
+)
+from symboslam.engine.density import Density
+from symboslam.engine.environment_map import EnvironmentMap
+from symboslam.engine.field import CLOSE, FieldEvidence, crowding_share
+from symboslam.engine.grid import Cells, Grid
+from symboslam.engine.landmarks import LandmarkMap
+from symboslam.engine.neighbourhood import Mask, covered, grown, reached, reaching
+from symboslam.engine.segmentation import Segments, cut, seen_cells, sums
+from symboslam.engine.settings import settings_of
+from symboslam.engine.table import Landmark, LandmarkTable
+from symboslam.errors import UnknownNameError
+from symboslam.reasoning.knowledge import Knowledge
+
+Floats = NDArray[np.float64]
+Rows = NDArray[np.int64]
+DRIFT = 0.1
+"""How far, as a share, the estimate of absence may move before the whole map takes it over."""
+
+
+@dataclass(frozen=True)
+class Change:
+    """What a change of landmarks did to the segments.
+
+    Attributes:
+        gone: ids of segments that are no more.
+        changed: new segments and those whose evidence changed, as a map of their own.
+        everything: all segments were made anew.
+    """
+
+    gone: tuple[str, ...]
+    changed: EnvironmentMap
+    everything: bool
+
+
+class LiveMap:
+    """A map that is kept up to date.
+
+    Args:
+        area: frame, box and surveyed area of the map; its landmarks are not taken over.
+        knowledge: what each kind of landmark indicates.
+        profile: ``default`` or ``paper``.
+        scheme: set of environment types; None takes the ontology's default.
+        **changes: settings that differ from the profile's.
+
+    Attributes:
+        table: the landmarks; whoever changes it calls `catch_up`.
+
+    Raises:
+        UnknownNameError: no such profile, scheme or setting.
+        InputError: a setting out of its range.
+    """
+
+    def __init__(
+        self,
+        area: LandmarkMap,
+        knowledge: Knowledge,
+        *,
+        profile: str = "default",
+        scheme: str | None = None,
+        **changes: Any,
+    ) -> None:
+        settings = settings_of(profile, **changes)
+        self._like, self._knowledge = area, knowledge
+        self._scheme = scheme or next(iter(knowledge.schemes))
+        self._grid = grid = Grid(area.bbox, settings.cells)
+        proximity = proximity_of(knowledge, self._scheme, settings)
+        bandwidth = bandwidth_of(knowledge, self._scheme, grid, settings)
+        self._ground = ground_of(knowledge, proximity)
+        self._bandwidth = bandwidth
+        self._width = np.maximum([f.site for f in knowledge.features], bandwidth)
+        self._seen = seen_cells(grid, area.surveyed)
+        self._inside = np.zeros((grid.cells, grid.cells), np.int64)
+        self._field = np.zeros((grid.cells, grid.cells, proximity.shape[1]))
+        self._estimates = settings.absence is None
+        self._absence = crowding_share(self._field) if self._estimates else settings.absence or 0.0
+        self._settings = replace(settings, bandwidth=bandwidth, absence=self._absence)
+        self._roots: dict[tuple[int, int], Segments] = {}
+        self.table = LandmarkTable(knowledge, grid)
+        self._update(np.ones((grid.cells, grid.cells), bool))
+
+    @property
+    def config(self) -> dict[str, Any]:
+        """Every setting in force; ``classify`` with these gives the same map."""
+        return configuration(self._settings, self._scheme)
+
+    def landmarks(self) -> LandmarkMap:
+        """All landmarks."""
+        return self.table.take(self.table.rows(), self._like)
+
+    def environment_map(self) -> EnvironmentMap:
+        """The whole map, classified at one go."""
+        return classify(self.landmarks(), self._knowledge, **self.config)
+
+    def segment(self, name: str) -> EnvironmentMap:
+        """One segment as a map, with the landmarks that have a say.
+
+        Raises:
+            UnknownNameError: no such segment.
+        """
+        for segments in self._roots.values():
+            here = np.flatnonzero(segments.names == name)
+            if len(here):
+                return self._map(segments.take(here))
+        raise UnknownNameError(f"no segment {name!r} in this map")
+
+    def catch_up(self) -> Change | None:
+        """Classify anew what was touched since the last call; None if nothing was."""
+        moved = []
+        for identifier, before in self.table.pop_changes().items():
+            row = self.table.row_of(identifier)
+            after = None if row is None else self.table[row]
+            if before is None or after is None or _differ(before, after):
+                moved += [each for each in (before, after) if each is not None]
+        if not moved:
+            return None
+        x, y = np.array([(each.x, each.y) for each in moved]).T
+        own = np.zeros(self._inside.shape, bool)
+        own[self._grid.finest_of(x, y)] = True
+        for cell in np.flatnonzero(own).tolist():
+            self._inside.flat[cell] = self.table.count(cell)
+        if self._settings.evidence == "pairs":
+            return self._update(own)
+        near = self._near(x, y, own)
+        around = self.table.xy(near)
+        feature = np.array([each.feature for each in moved])
+        return self._update(
+            reached(
+                self._grid,
+                np.concatenate([x, around[:, 0]]),
+                np.concatenate([y, around[:, 1]]),
+                self._width[np.concatenate([feature, self.table.feature(near)])],
+            )
+        )
+
+    def _near(self, x: Floats, y: Floats, cells: Mask) -> Rows:
+        """Rows of the landmarks that those at some places can contradict."""
+        if not self._settings.dissimilarity:
+            return np.zeros(0, np.int64)
+        radius = CLOSE * self._bandwidth
+        rows = self.table.within(np.flatnonzero(grown(self._grid, cells, radius)).tolist())
+        tree = shapely.STRtree(shapely.points(x, y))
+        points = shapely.points(self.table.xy(rows))
+        near, _ = tree.query(points, predicate="dwithin", distance=radius)
+        return np.asarray(rows[np.unique(near)])
+
+    def _update(self, touched: Mask) -> Change:
+        """Classify anew the segments whose evidence is from cells that were touched."""
+        roots = self._roots_in(touched)
+        old = [self._roots[root] for root in roots if root in self._roots]
+        around = touched.copy()
+        for segments in old:
+            source = segments.source
+            around |= covered(self._grid, source.take(self._overlap(source, touched)))
+        landmarks, evidence = self._evidence(around)
+        everything = False
+        if isinstance(evidence, FieldEvidence):
+            self._field[touched] = evidence.field[touched]
+            if everything := self._silence_changed():
+                touched = np.ones_like(touched)
+                roots, old = self._roots_in(touched), list(self._roots.values())
+        values = self._density() if isinstance(evidence, FieldEvidence) else evidence
+        segments = cut(
+            self._grid,
+            values.of,
+            values.settled,
+            self._seen,
+            inherit=self._settings.empty == "inherit",
+            roots=_cells(roots),
+        )
+        before = {name for part in old for name in part.names.tolist()}
+        names = segments.names
+        self._keep(segments, roots)
+        new = np.array([name not in before for name in names.tolist()], bool)
+        changed = segments.take(new | self._overlap(segments.source, touched))
+        if everything or (covered(self._grid, changed.source) & ~around).any():
+            landmarks, evidence = self._evidence(covered(self._grid, changed.source))
+        gone = tuple(sorted(before.difference(names.tolist())))
+        return Change(gone, self._assembled(changed, landmarks, evidence), everything)
+
+    def _evidence(self, cells: Mask) -> tuple[LandmarkMap, Evidence]:
+        """The evidence in some cells, and the landmarks that it is from."""
+        if self._settings.evidence == "pairs":
+            roots = covered(self._grid, _cells(self._roots_in(cells)))
+            rows = self.table.within(np.flatnonzero(roots).tolist())
+        else:
+            rows = reaching(self.table, self._grid, cells, self._width)
+            own = np.zeros_like(cells)
+            xy = self.table.xy(rows)
+            own[self._grid.finest_of(xy[:, 0], xy[:, 1])] = True
+            around = grown(self._grid, own, CLOSE * self._bandwidth)  # who may contradict them
+            rows = self.table.within(np.flatnonzero(around).tolist())
+        landmarks = self.table.take(rows, self._like)
+        return landmarks, evidence_of(
+            landmarks, self._knowledge, self._scheme, self._grid, self._settings
+        )
+
+    def _density(self) -> Density:
+        field = self._field + self._absence * self._ground
+        return Density(self._grid, self._settings.threshold, field, self._inside)
+
+    def _silence_changed(self) -> bool:
+        """Estimate anew what unmarked ground says; whether that has moved far enough to count."""
+        estimate = crowding_share(self._field)
+        if not self._estimates or abs(estimate - self._absence) <= DRIFT * self._absence:
+            return False
+        self._absence = estimate
+        self._settings = replace(self._settings, absence=estimate)
+        return True
+
+    def _roots_in(self, cells: Mask) -> list[tuple[int, int]]:
+        """(row, column) of the coarsest cells with some of the finest in them."""
+        found = self._grid.coarsen(cells.astype(np.int64), 0)
+        return [(int(row), int(column)) for row, column in np.argwhere(found)]
+
+    def _overlap(self, cells: Cells, mask: Mask) -> Mask:
+        """(m,) which of m cells overlap others."""
+        return np.asarray(sums(self._grid, mask.astype(np.int64), cells) > 0)
+
+    def _keep(self, segments: Segments, roots: list[tuple[int, int]]) -> None:
+        cells = segments.cells
+        for row, column in roots:
+            here = (cells.row >> cells.depth == row) & (cells.column >> cells.depth == column)
+            self._roots[row, column] = segments.take(here)
+
+    def _map(self, segments: Segments) -> EnvironmentMap:
+        return self._assembled(segments, *self._evidence(covered(self._grid, segments.source)))
+
+    def _assembled(
+        self, segments: Segments, landmarks: LandmarkMap, evidence: Evidence
+    ) -> EnvironmentMap:
+        counts = sums(self._grid, self._inside, segments.cells)
+        return assemble(
+            self._grid, segments, counts, landmarks, self._knowledge, self.config, evidence
+        )
+
+
+def _differ(one: Landmark, two: Landmark) -> bool:
+    """Whether the evidence of a landmark changed."""
+    return (one.feature, one.x, one.y, one.confidence) != (
+        two.feature,
+        two.x,
+        two.y,
+        two.confidence,
+    )
+
+
+def _cells(roots: list[tuple[int, int]]) -> Cells:
+    row, column = np.array(roots, np.int64).reshape(-1, 2).T
+    return Cells(np.zeros(len(roots), np.int64), row, column)
