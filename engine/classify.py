@@ -120,8 +120,9 @@ def evidence_of(
     scheme: str | None,
     grid: Grid,
     settings: Settings,
+    denied: Floats | None = None,
 ) -> Evidence:
-    """The evidence that the settings ask for."""
+    """The evidence that the settings ask for; ``denied`` as in ``FieldEvidence``."""
     proximity = proximity_of(knowledge, scheme, settings)
     weight = proximity[landmarks.feature] * landmarks.confidence[:, None]
     if settings.evidence == "pairs":
@@ -129,7 +130,7 @@ def evidence_of(
     site = np.array([f.site for f in knowledge.features])[landmarks.feature]
     return FieldEvidence(
         landmarks, weight, grid, settings, bandwidth_of(knowledge, scheme, grid, settings), site,
-        ground_of(knowledge, proximity),
+        ground_of(knowledge, proximity), denied,
     )  # fmt: skip
 
 

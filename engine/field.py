@@ -133,6 +133,7 @@ class FieldEvidence(Evidence):
         site: (n,) radius in metres of the ground that each landmark stands for; where it exceeds
             the bandwidth the kernel is as wide, and as high in the middle, so it says more in all.
         absence: (K,) what ground without landmarks indicates, 0 where nothing.
+        denied: (n, K) what `dissimilarity` gives, where that is known already.
 
     Attributes:
         bandwidth: as given.
@@ -150,12 +151,15 @@ class FieldEvidence(Evidence):
         bandwidth: float,
         site: Floats,
         absence: Floats,
+        denied: Floats | None = None,
     ) -> None:
         self._xy, self._grid = landmarks.xy, grid
         self.bandwidth = bandwidth
         width = np.maximum(site, bandwidth)
         self._kernels = [self._kernels_of(np.flatnonzero(width == w), w) for w in np.unique(width)]
-        loss = settings.dissimilarity * weight * dissimilarity(self._xy, weight, CLOSE * bandwidth)
+        if denied is None:
+            denied = dissimilarity(self._xy, weight, CLOSE * bandwidth)
+        loss = settings.dissimilarity * weight * denied
         size = np.minimum(width / bandwidth, WIDEST)[:, None] ** 2
         self._plain, self._loss = weight * size, loss * size
         self.field = self._spread(self._plain - self._loss)

@@ -26,7 +26,7 @@ from symboslam.engine.classify import (
 )
 from symboslam.engine.density import Density
 from symboslam.engine.environment_map import EnvironmentMap
-from symboslam.engine.field import CLOSE, FieldEvidence, crowding_share
+from symboslam.engine.field import CLOSE, FieldEvidence, crowding_share, dissimilarity
 from symboslam.engine.grid import Cells, Grid
 from symboslam.engine.landmarks import LandmarkMap
 from symboslam.engine.neighbourhood import Mask, covered, grown, reached, reaching
@@ -88,7 +88,8 @@ class LiveMap:
         self._like, self._knowledge = area, knowledge
         self._scheme = scheme or next(iter(knowledge.schemes))
         self._grid = grid = Grid(area.bbox, settings.cells)
-        proximity = proximity_of(knowledge, self._scheme, settings)
+        self._proximity = proximity = proximity_of(knowledge, self._scheme, settings)
+        self._denied = np.zeros((0, proximity.shape[1]))
         bandwidth = bandwidth_of(knowledge, self._scheme, grid, settings)
         self._ground = ground_of(knowledge, proximity)
         self._bandwidth = bandwidth
@@ -146,6 +147,7 @@ class LiveMap:
         if self._settings.evidence == "pairs":
             return self._update(own)
         near = self._near(x, y, own)
+        self._contradict(near)
         around = self.table.xy(near)
         feature = np.array([each.feature for each in moved])
         return self._update(
@@ -158,15 +160,37 @@ class LiveMap:
         )
 
     def _near(self, x: Floats, y: Floats, cells: Mask) -> Rows:
-        """Rows of the landmarks that those at some places can contradict."""
+        """Rows of the landmarks that those at some places, in some cells, can contradict."""
         if not self._settings.dissimilarity:
             return np.zeros(0, np.int64)
-        radius = CLOSE * self._bandwidth
-        rows = self.table.within(np.flatnonzero(grown(self._grid, cells, radius)).tolist())
+        rows = self._rows_around(cells, CLOSE * self._bandwidth)
         tree = shapely.STRtree(shapely.points(x, y))
         points = shapely.points(self.table.xy(rows))
-        near, _ = tree.query(points, predicate="dwithin", distance=radius)
+        near, _ = tree.query(points, predicate="dwithin", distance=CLOSE * self._bandwidth)
         return np.asarray(rows[np.unique(near)])
+
+    def _contradict(self, rows: Rows) -> None:
+        """Work out anew what the landmarks around some rows deny them."""
+        if not len(rows):
+            return
+        around = self._rows_around(self._cells_of(rows), CLOSE * self._bandwidth)
+        weight = self._proximity[self.table.feature(around)]
+        weight = weight * self.table.confidence(around)[:, None]
+        found = dissimilarity(self.table.xy(around), weight, CLOSE * self._bandwidth)
+        if (last := int(rows[-1])) >= len(self._denied):
+            more = np.zeros((max(last + 1, 2 * len(self._denied)), weight.shape[1]))
+            more[: len(self._denied)] = self._denied
+            self._denied = more
+        self._denied[rows] = found[np.searchsorted(around, rows)]
+
+    def _cells_of(self, rows: Rows) -> Mask:
+        found = np.zeros(self._inside.shape, bool)
+        xy = self.table.xy(rows)
+        found[self._grid.finest_of(xy[:, 0], xy[:, 1])] = True
+        return found
+
+    def _rows_around(self, cells: Mask, metres: float) -> Rows:
+        return self.table.within(np.flatnonzero(grown(self._grid, cells, metres)).tolist())
 
     def _update(self, touched: Mask) -> Change:
         """Classify anew the segments whose evidence is from cells that were touched."""
@@ -209,14 +233,12 @@ class LiveMap:
             rows = self.table.within(np.flatnonzero(roots).tolist())
         else:
             rows = reaching(self.table, self._grid, cells, self._width)
-            own = np.zeros_like(cells)
-            xy = self.table.xy(rows)
-            own[self._grid.finest_of(xy[:, 0], xy[:, 1])] = True
-            around = grown(self._grid, own, CLOSE * self._bandwidth)  # who may contradict them
-            rows = self.table.within(np.flatnonzero(around).tolist())
         landmarks = self.table.take(rows, self._like)
+        denied = np.zeros((len(rows), self._denied.shape[1]))
+        if self._settings.dissimilarity and self._settings.evidence == "field":
+            denied = self._denied[rows]
         return landmarks, evidence_of(
-            landmarks, self._knowledge, self._scheme, self._grid, self._settings
+            landmarks, self._knowledge, self._scheme, self._grid, self._settings, denied
         )
 
     def _density(self) -> Density:

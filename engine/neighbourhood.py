@@ -61,16 +61,12 @@ def reached(grid: Grid, x: Floats, y: Floats, sigma: Floats) -> Mask:
     found = np.zeros((grid.cells, grid.cells), bool)
     for size in np.unique(sigma).tolist():
         here = sigma == size
-        (west, columns), (south, rows) = (
-            Bands.span(positions[here], grid.box[axis], grid.step[axis], grid.cells, size)
-            for axis, positions in enumerate((x, y))
-        )
-        found |= filled(grid.cells, south, south + rows, west, west + columns)
+        found |= filled(grid.cells, *_rectangles(grid, x[here], y[here], size))
     return found
 
 
 def reaching(table: LandmarkTable, grid: Grid, mask: Mask, sigma: Floats) -> Ints:
-    """Rows of the landmarks whose kernels may reach some cells.
+    """Rows of the landmarks whose kernels reach some cells.
 
     Args:
         table: the landmarks.
@@ -78,8 +74,25 @@ def reaching(table: LandmarkTable, grid: Grid, mask: Mask, sigma: Floats) -> Int
         mask: which of them.
         sigma: standard deviation of the kernel of each feature, in metres.
     """
+    sums = np.zeros((grid.cells + 1, grid.cells + 1), np.int64)
+    sums[1:, 1:] = mask.cumsum(0).cumsum(1)
     parts = []
     for size in np.unique(sigma).tolist():
-        rows = table.within(np.flatnonzero(grown(grid, mask, REACH * size)).tolist())
-        parts.append(rows[sigma[table.feature(rows)] == size])
+        # Twice the reach: at the map's edge a kernel's rectangle is moved inwards.
+        around = grown(grid, mask, 2 * REACH * size + 2 * max(grid.step))
+        rows = table.within(np.flatnonzero(around).tolist())
+        rows = rows[sigma[table.feature(rows)] == size]
+        xy = table.xy(rows)
+        south, north, west, east = _rectangles(grid, xy[:, 0], xy[:, 1], size)
+        inside = sums[north, east] - sums[south, east] - sums[north, west] + sums[south, west]
+        parts.append(rows[inside > 0])
     return np.sort(np.concatenate(parts))
+
+
+def _rectangles(grid: Grid, x: Floats, y: Floats, sigma: float) -> tuple[Ints, Ints, Ints, Ints]:
+    """(n,) each: first and last row (not included), first and last column of kernels."""
+    (west, columns), (south, rows) = (
+        Bands.span(positions, grid.box[axis], grid.step[axis], grid.cells, sigma)
+        for axis, positions in enumerate((x, y))
+    )
+    return south, south + rows, west, west + columns

@@ -138,6 +138,10 @@ class LandmarkTable:
         """(m,) features of rows."""
         return self._feature[rows]
 
+    def confidence(self, rows: Rows) -> NDArray[np.float64]:
+        """(m,) confidences of rows."""
+        return np.asarray(self._numbers[rows, 2])
+
     def within(self, cells: Iterable[int]) -> Rows:
         """Rows in finest cells, given as row * cells + column; in order."""
         empty: set[int] = set()

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
-import shapely
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -17,8 +15,8 @@ from symboslam.engine.frame import Frame
 from symboslam.engine.landmarks import LandmarkMap
 from symboslam.engine.live import LiveMap
 from symboslam.engine.table import Landmark
-from symboslam.errors import UnknownNameError
 from symboslam.reasoning.knowledge import Knowledge
+
 
 @pytest.fixture(scope="module")
 def bundled() -> Knowledge:
