@@ -95,12 +95,13 @@ def listen(host: str, port: int) -> socket.socket:
 
 
 def _run(settings: Settings, listening: socket.socket, open_: bool) -> None:
+    import logging
     import signal
 
     import uvicorn
 
     from symboslam.service.app import create_app
-    from symboslam.service.store.oxigraph import OxigraphStore
+    from symboslam.service.store.opening import open_store
 
     host, port = listening.getsockname()[:2]
     shown = f"[{host}]" if ":" in host else host
@@ -108,13 +109,16 @@ def _run(settings: Settings, listening: socket.socket, open_: bool) -> None:
 
     class Server(uvicorn.Server):
         async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+            log = logging.getLogger("uvicorn.error")
+            log.setLevel(logging.CRITICAL)  # what keeps it from starting is told below
             await super().startup(sockets)
+            log.setLevel(logging.WARNING)
             if self.started:
                 _tell(settings, address, open_)
 
-    store = OxigraphStore(settings)
+    app = create_app(settings, open_store(settings))
     config = uvicorn.Config(
-        create_app(settings, store), log_level="warning", server_header=False,
+        app, log_level="warning", server_header=False,
         timeout_graceful_shutdown=_GRACE,
     )  # fmt: skip
     server = Server(config)
@@ -123,14 +127,14 @@ def _run(settings: Settings, listening: socket.socket, open_: bool) -> None:
         signal.signal(number, lambda *_: None)
     server.run([listening])
     if not server.started:
-        raise RuntimeError("the service did not start")
+        raise getattr(app.state, "failure", None) or RuntimeError("the service did not start")
     print("stopped")
 
 
 def _tell(settings: Settings, address: str, open_: bool) -> None:
     import webbrowser
 
-    print(f"SymboSLAM serves {settings.data}")
+    print(f"SymboSLAM serves {settings.store or settings.data}")
     print(f"  SPARQL   {address}/sparql")
     print(f"  graphs   {address}/graphs")
     if settings.admin_token is None:
