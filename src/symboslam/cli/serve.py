@@ -95,6 +95,7 @@ def listen(host: str, port: int) -> socket.socket:
 
 
 def _run(settings: Settings, listening: socket.socket, open_: bool) -> None:
+    import contextlib
     import logging
     import signal
 
@@ -125,7 +126,8 @@ def _run(settings: Settings, listening: socket.socket, open_: bool) -> None:
     # uvicorn hands the signal that stopped it on to these; a stop that was asked for is no failure.
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: None)
-    server.run([listening])
+    with contextlib.suppress(SystemExit):  # uvicorn exits if it does not start
+        server.run([listening])
     if not server.started:
         raise getattr(app.state, "failure", None) or RuntimeError("the service did not start")
     print("stopped")
