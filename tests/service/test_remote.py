@@ -18,7 +18,7 @@ from pydantic import ValidationError
 
 from symboslam.errors import StoreError
 from symboslam.service.settings import Settings
-from symboslam.service.store import endpoint
+from symboslam.service.store import endpoint, remote
 from symboslam.service.store._base import (
     Document,
     Formats,
@@ -28,7 +28,7 @@ from symboslam.service.store._base import (
     TimeLimitError,
 )
 from symboslam.service.store.remote import RemoteStore
-from tests.service.conftest import TOKEN, MakeService
+from tests.service.conftest import ADMIN, TOKEN, MakeService
 from tests.service.fuseki import UNION
 from tests.service.test_protocol import problem
 
@@ -151,11 +151,12 @@ TRACE = b"boom\n\tat java.lang.Thread.run\n"
         (Reply(503, "text/plain", b"overloaded"), StoreError, "status 503: overloaded"),
         (Reply(503, "text/plain", b"Query timed out\n"), TimeLimitError, "by the store"),
         (Reply(400, "text/plain", b"Parse error: x at line 7, column 2."), QueryError, "x"),
+        (Reply(400, "text/plain", b" " * 9000 + b"line"), QueryError, "malformed"),
         (Reply(400, HTML, b"<html>bad</html>"), QueryError, "malformed"),
         (Reply(406), NotAcceptableError, "formats"),
         (Reply(200, HTML, b"<html>Welcome</html>"), StoreError, "no SPARQL endpoint"),
         (Reply(302, headers={"Location": "/trap"}), StoreError, "elsewhere, at /trap"),
-        (Reply(headers={"Content-Encoding": "gzip"}), StoreError, "cannot be reached"),
+        (Reply(headers={"Content-Encoding": "gzip"}), StoreError, "broke off"),
     ],
 )
 def test_failures(
@@ -177,7 +178,7 @@ def test_failures(
 def test_half_a_result_is_none(elsewhere: Elsewhere, tmp_path: Path) -> None:
     with connected(elsewhere, tmp_path) as (store, do):
         elsewhere.replies["/ds/sparql"] = Reply(headers={"Content-Length": "1000"})
-        with pytest.raises(StoreError, match="cannot be reached"):
+        with pytest.raises(StoreError, match="broke off"):
             do(store.query(ASK))
         elsewhere.replies["/ds/sparql"] = Reply(body=NO[:10])
         with pytest.raises(StoreError, match="JSON"):
@@ -278,6 +279,32 @@ def test_what_clients_see(make_service: MakeService, fuseki_url: str) -> None:
     assert service.client.get("/readyz").status_code == 200
     described = service.client.get("/sparql", headers={"Accept": "application/n-triples"}).text
     assert "<urn:g>" in described
+
+
+def test_a_large_graph_there_and_back(make_service: MakeService, fuseki_url: str) -> None:
+    service = make_service(store=fuseki_url)
+    lines = "".join(f"<urn:s{i}> <urn:p> {i} .\n" for i in range(20_000))
+    headers = {**ADMIN, "Content-Type": "text/turtle"}
+    put = service.client.put("/graphs?graph=urn:large", content=lines, headers=headers)
+    assert put.status_code in (201, 204)
+    got = service.client.get("/graphs?graph=urn:large", headers={"Accept": "application/n-triples"})
+    assert got.text.count("\n") == 20_000
+    assert not list(service.app.state.settings.data.glob("spool/*"))
+    assert service.client.delete("/graphs?graph=urn:large", headers=ADMIN).status_code == 204
+
+
+def test_too_many_graphs_to_name(
+    make_service: MakeService, fuseki_url: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    service = make_service(store=fuseki_url, store_union_graphs=UNION)
+    service.update("DROP ALL").raise_for_status()
+    data = "INSERT DATA { GRAPH <urn:g> { <urn:a> <urn:p> 1 } GRAPH <urn:h> { <urn:a> <urn:p> 2 } }"
+    service.update(data).raise_for_status()
+    monkeypatch.setattr(remote, "_MOST_GRAPHS", 1)
+    problem(service.ask("SELECT * { GRAPH ?g { ?s ?p ?o } }"), 503, "store-unavailable")
+    assert len(service.values("SELECT * { ?s ?p ?o }")) == 2
+    monkeypatch.setattr(remote, "_MOST_GRAPHS", 2)
+    assert len(service.values("SELECT * { GRAPH ?g { ?s ?p ?o } }")) == 2
 
 
 def test_a_store_that_has_gone(elsewhere: Elsewhere, make_service: MakeService) -> None:

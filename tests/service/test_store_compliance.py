@@ -622,7 +622,6 @@ def test_a_stopped_store_answers_nothing(settings: dict[str, Any], tmp_path: Pat
             case.do(case.store.graph_names(1))
 
 
-@every_way
 def test_the_ontology_is_put_there_once(case: Case) -> None:
     count = f"SELECT (COUNT(*) AS ?n) {{ GRAPH <{INFERENCES_GRAPH}> {{ ?s ?p ?o }} }}"
     assert [case.do(seed(case.store)) for _ in range(2)] == [True, False]

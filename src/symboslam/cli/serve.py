@@ -40,8 +40,8 @@ def serve(
     """Serve SPARQL over HTTP until Ctrl-C.
 
     Reading is free; writing needs the token in SYMBOSLAM_ADMIN_TOKEN. All settings are in
-    docs/service.md. Exit code 0: stopped; 2: the address or the folder is in use, or a setting
-    is wrong.
+    docs/service.md. Exit code 0: stopped; 2: the address or the folder is in use, a setting is
+    wrong, or the store cannot be reached.
     """
     try:
         import fastapi  # noqa: F401
