@@ -10,6 +10,7 @@ from pydantic import Field, SecretStr, field_validator
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 MIB = 1024 * 1024
+_ENDPOINT = r"^https?://[^\s/?#@]+(/[^\s?#]*)?$"
 
 
 class Settings(BaseSettings):
@@ -17,6 +18,14 @@ class Settings(BaseSettings):
 
     Attributes:
         data: folder of the store; made if it is not there. ``SYMBOSLAM_DATA``, and so on.
+        store: the query endpoint of a SPARQL 1.1 store elsewhere; none: the store is in ``data``.
+        store_update: its endpoint for updates; beside ``.../sparql`` or ``.../query`` by default.
+        store_graphs: its Graph Store endpoint; beside ``.../sparql`` by default, or none.
+        store_union_graphs: what to ask for as default graphs where a query is to see the union of
+            all graphs, separated by commas; none: the store does it by itself.
+        store_user: name for its basic authentication.
+        store_password: the password.
+        store_token: a bearer token in the place of both.
         admin_token: whoever sends it may write; without one nobody may.
         public_url: the address that clients see, where that is not the one that reaches us.
         union_default_graph: queries without a dataset of their own see the union of all graphs.
@@ -37,6 +46,13 @@ class Settings(BaseSettings):
     model_config = SettingsConfigDict(env_prefix="SYMBOSLAM_", frozen=True)
 
     data: Path = Path("symboslam-data")
+    store: str | None = Field(None, pattern=_ENDPOINT)
+    store_update: str | None = Field(None, pattern=_ENDPOINT)
+    store_graphs: str | None = Field(None, pattern=_ENDPOINT)
+    store_union_graphs: Annotated[tuple[str, ...], NoDecode] = ()
+    store_user: str | None = None
+    store_password: SecretStr | None = None
+    store_token: SecretStr | None = None
     admin_token: SecretStr | None = None
     public_url: str | None = Field(None, pattern=r"^https?://[^\s?#]+$")
     union_default_graph: bool = True
@@ -53,14 +69,19 @@ class Settings(BaseSettings):
     allow_service: bool = False
     allow_load: bool = False
 
-    @field_validator("cors_origins", mode="before")
+    @field_validator("cors_origins", "store_union_graphs", mode="before")
     @classmethod
     def _split(cls, value: Any) -> Any:
         if isinstance(value, str):
             return tuple(part.strip() for part in value.split(",") if part.strip())
         return value
 
-    @field_validator("admin_token")
+    @field_validator("store", "store_update", "store_graphs", "store_user", mode="before")
+    @classmethod
+    def _unless_empty(cls, value: Any) -> Any:
+        return value or None
+
+    @field_validator("admin_token", "store_password", "store_token")
     @classmethod
     def _not_empty(cls, value: SecretStr | None) -> SecretStr | None:
         return value if value and value.get_secret_value() else None

@@ -40,8 +40,8 @@ def serve(
     """Serve SPARQL over HTTP until Ctrl-C.
 
     Reading is free; writing needs the token in SYMBOSLAM_ADMIN_TOKEN. All settings are in
-    docs/service.md. Exit code 0: stopped; 2: the address or the folder is in use, or a setting
-    is wrong.
+    docs/service.md. Exit code 0: stopped; 2: the address or the folder is in use, a setting is
+    wrong, or the store cannot be reached.
     """
     try:
         import fastapi  # noqa: F401
@@ -95,12 +95,14 @@ def listen(host: str, port: int) -> socket.socket:
 
 
 def _run(settings: Settings, listening: socket.socket, open_: bool) -> None:
+    import contextlib
+    import logging
     import signal
 
     import uvicorn
 
     from symboslam.service.app import create_app
-    from symboslam.service.store.oxigraph import OxigraphStore
+    from symboslam.service.store.opening import open_store
 
     host, port = listening.getsockname()[:2]
     shown = f"[{host}]" if ":" in host else host
@@ -108,29 +110,33 @@ def _run(settings: Settings, listening: socket.socket, open_: bool) -> None:
 
     class Server(uvicorn.Server):
         async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+            log = logging.getLogger("uvicorn.error")
+            log.setLevel(logging.CRITICAL)  # what keeps it from starting is told below
             await super().startup(sockets)
+            log.setLevel(logging.WARNING)
             if self.started:
                 _tell(settings, address, open_)
 
-    store = OxigraphStore(settings)
+    app = create_app(settings, open_store(settings))
     config = uvicorn.Config(
-        create_app(settings, store), log_level="warning", server_header=False,
+        app, log_level="warning", server_header=False,
         timeout_graceful_shutdown=_GRACE,
     )  # fmt: skip
     server = Server(config)
     # uvicorn hands the signal that stopped it on to these; a stop that was asked for is no failure.
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: None)
-    server.run([listening])
+    with contextlib.suppress(SystemExit):  # uvicorn exits if it does not start
+        server.run([listening])
     if not server.started:
-        raise RuntimeError("the service did not start")
+        raise getattr(app.state, "failure", None) or RuntimeError("the service did not start")
     print("stopped")
 
 
 def _tell(settings: Settings, address: str, open_: bool) -> None:
     import webbrowser
 
-    print(f"SymboSLAM serves {settings.data}")
+    print(f"SymboSLAM serves {settings.store or settings.data}")
     print(f"  SPARQL   {address}/sparql")
     print(f"  graphs   {address}/graphs")
     if settings.admin_token is None:
