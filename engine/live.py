@@ -7,6 +7,7 @@ in ``config``, which are those asked for and the bandwidth and absence in force.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -28,7 +29,7 @@ from symboslam.engine.density import Density
 from symboslam.engine.environment_map import EnvironmentMap
 from symboslam.engine.field import CLOSE, FieldEvidence, crowding_share, dissimilarity
 from symboslam.engine.grid import Cells, Grid
-from symboslam.engine.landmarks import LandmarkMap
+from symboslam.engine.landmarks import LandmarkMap, ReadReport
 from symboslam.engine.neighbourhood import Mask, covered, grown, reached, reaching
 from symboslam.engine.segmentation import Segments, cut, seen_cells, sums
 from symboslam.engine.settings import settings_of
@@ -44,17 +45,20 @@ DRIFT = 0.1
 
 @dataclass(frozen=True)
 class Change:
-    """What a change of landmarks did to the segments.
+    """What changed in a map.
 
     Attributes:
+        landmarks: id -> the landmark before and after; None where there was, or is, none.
         gone: ids of segments that are no more.
-        changed: new segments and those whose evidence changed, as a map of their own.
+        changed: new segments and those whose evidence changed, as a map of their own; None if
+            there are none.
         everything: all segments were made anew.
     """
 
-    gone: tuple[str, ...]
-    changed: EnvironmentMap
-    everything: bool
+    landmarks: Mapping[str, tuple[Landmark | None, Landmark | None]]
+    gone: tuple[str, ...] = ()
+    changed: EnvironmentMap | None = None
+    everything: bool = False
 
 
 class LiveMap:
@@ -102,12 +106,21 @@ class LiveMap:
         self._settings = replace(settings, bandwidth=bandwidth, absence=self._absence)
         self._roots: dict[tuple[int, int], Segments] = {}
         self.table = LandmarkTable(knowledge, grid)
-        self._update(np.ones((grid.cells, grid.cells), bool))
+        self._update(np.ones((grid.cells, grid.cells), bool), Change({}))
 
     @property
     def config(self) -> dict[str, Any]:
         """Every setting in force; ``classify`` with these gives the same map."""
         return configuration(self._settings, self._scheme)
+
+    @property
+    def report(self) -> ReadReport:
+        """What readers took and left; whoever adds landmarks keeps it up to date."""
+        return self._like.report
+
+    @report.setter
+    def report(self, report: ReadReport) -> None:
+        self._like = replace(self._like, report=report)
 
     def landmarks(self) -> LandmarkMap:
         """All landmarks."""
@@ -116,6 +129,19 @@ class LiveMap:
     def environment_map(self) -> EnvironmentMap:
         """The whole map, classified at one go."""
         return classify(self.landmarks(), self._knowledge, **self.config)
+
+    def described(self, landmarks: Sequence[Landmark]) -> EnvironmentMap:
+        """Some landmarks, as a map without segments."""
+        none = Segments(_cells([]), _cells([]), np.zeros((0, len(self._ground))))
+        _, evidence = self._nothing()
+        return self._assembled(none, self.table.landmark_map(landmarks, self._like), evidence)
+
+    def _nothing(self) -> tuple[LandmarkMap, Evidence]:
+        return self._evidence(np.zeros(self._inside.shape, bool))
+
+    def segments(self) -> EnvironmentMap:
+        """All segments, without the landmarks behind them."""
+        return self._assembled(Segments.joined(list(self._roots.values())), *self._nothing())
 
     def segment(self, name: str) -> EnvironmentMap:
         """One segment as a map, with the landmarks that have a say.
@@ -131,21 +157,29 @@ class LiveMap:
 
     def catch_up(self) -> Change | None:
         """Classify anew what was touched since the last call; None if nothing was."""
-        moved = []
+        landmarks, moved = {}, []
         for identifier, before in self.table.pop_changes().items():
             row = self.table.row_of(identifier)
             after = None if row is None else self.table[row]
+            if before == after:
+                continue
+            landmarks[identifier] = before, after
             if before is None or after is None or _differ(before, after):
                 moved += [each for each in (before, after) if each is not None]
-        if not moved:
+        if not landmarks:
             return None
+        change = Change(landmarks)
+        return self._follow(change, moved) if moved else change
+
+    def _follow(self, change: Change, moved: list[Landmark]) -> Change:
+        """Classify anew what some landmarks have, or had, a say in."""
         x, y = np.array([(each.x, each.y) for each in moved]).T
         own = np.zeros(self._inside.shape, bool)
         own[self._grid.finest_of(x, y)] = True
         for cell in np.flatnonzero(own).tolist():
             self._inside.flat[cell] = self.table.count(cell)
         if self._settings.evidence == "pairs":
-            return self._update(own)
+            return self._update(own, change)
         near = self._near(x, y, own)
         self._contradict(near)
         around = self.table.xy(near)
@@ -156,7 +190,8 @@ class LiveMap:
                 np.concatenate([x, around[:, 0]]),
                 np.concatenate([y, around[:, 1]]),
                 self._width[np.concatenate([feature, self.table.feature(near)])],
-            )
+            ),
+            change,
         )
 
     def _near(self, x: Floats, y: Floats, cells: Mask) -> Rows:
@@ -192,7 +227,7 @@ class LiveMap:
     def _rows_around(self, cells: Mask, metres: float) -> Rows:
         return self.table.within(np.flatnonzero(grown(self._grid, cells, metres)).tolist())
 
-    def _update(self, touched: Mask) -> Change:
+    def _update(self, touched: Mask, change: Change) -> Change:
         """Classify anew the segments whose evidence is from cells that were touched."""
         roots = self._roots_in(touched)
         old = [self._roots[root] for root in roots if root in self._roots]
@@ -224,7 +259,12 @@ class LiveMap:
         if everything or (covered(self._grid, changed.source) & ~around).any():
             landmarks, evidence = self._evidence(covered(self._grid, changed.source))
         gone = tuple(sorted(before.difference(names.tolist())))
-        return Change(gone, self._assembled(changed, landmarks, evidence), everything)
+        return replace(
+            change,
+            gone=gone,
+            changed=self._assembled(changed, landmarks, evidence) if len(changed.cells) else None,
+            everything=everything,
+        )
 
     def _evidence(self, cells: Mask) -> tuple[LandmarkMap, Evidence]:
         """The evidence in some cells, and the landmarks that it is from."""

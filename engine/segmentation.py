@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -33,6 +33,19 @@ class Segments:
     cells: Cells
     source: Cells
     probability: Floats
+
+    @classmethod
+    def joined(cls, parts: Sequence[Segments]) -> Segments:
+        """Several one after the other."""
+        cells, source = (
+            Cells(
+                np.concatenate([c.depth for c in each]),
+                np.concatenate([c.row for c in each]),
+                np.concatenate([c.column for c in each]),
+            )
+            for each in ([p.cells for p in parts], [p.source for p in parts])
+        )
+        return cls(cells, source, np.concatenate([p.probability for p in parts]))
 
     @property
     def label(self) -> NDArray[np.int16]:

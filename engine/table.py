@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -152,20 +152,25 @@ class LandmarkTable:
 
     def take(self, rows: Rows, like: LandmarkMap) -> LandmarkMap:
         """Some landmarks as a map with the frame, area and report of another."""
-        found = [self[row] for row in rows.tolist()]
-        feature = self._feature[rows]
+        return self.landmark_map([self[row] for row in rows.tolist()], like)
+
+    def landmark_map(self, landmarks: Sequence[Landmark], like: LandmarkMap) -> LandmarkMap:
+        """Landmarks, be they in the table or not, as a map like another."""
+        feature = np.array([each.feature for each in landmarks], np.int32)
+        numbers = np.array([(each.x, each.y, each.confidence) for each in landmarks])
+        x, y, confidence = numbers.reshape(-1, 3).T
         return LandmarkMap(
             feature=feature,
-            x=self._numbers[rows, 0],
-            y=self._numbers[rows, 1],
-            confidence=self._numbers[rows, 2],
+            x=x,
+            y=y,
+            confidence=confidence,
             static=self._static[feature],
-            id=np.array([each.id for each in found], np.str_),
+            id=np.array([each.id for each in landmarks], np.str_),
             frame=like.frame,
             bbox=like.bbox,
             surveyed=like.surveyed,
-            time=_column([each.time for each in found]),
-            agent=_column([each.agent for each in found]),
+            time=_column([each.time for each in landmarks]),
+            agent=_column([each.agent for each in landmarks]),
             report=like.report,
         )
 

@@ -64,6 +64,9 @@ SPARQL_UPDATE = "application/sparql-update"
 FORM = "application/x-www-form-urlencoded"
 MULTIPART = "multipart/form-data"
 PROBLEM_JSON = "application/problem+json"
+N_TRIPLES = "application/n-triples"
+GEOJSON = "application/geo+json"
+NDJSON = "application/x-ndjson"
 
 RESULT_FORMATS = {
     "JSON": "SPARQL_Results_JSON",

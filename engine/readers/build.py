@@ -22,7 +22,13 @@ from symboslam.engine.readers.checks import (
     without_duplicates,
 )
 from symboslam.engine.readers.columns import Columns, FeatureIndex, Floats, Kind
-from symboslam.engine.readers.crs import CoordinateSystem, canonical, coordinate_system
+from symboslam.engine.readers.crs import (
+    DEGREES,
+    METRES,
+    CoordinateSystem,
+    canonical,
+    coordinate_system,
+)
 from symboslam.errors import GeometryError
 
 if TYPE_CHECKING:
@@ -98,6 +104,64 @@ def build(
             duplicates=int((~fresh).sum()),
             notes=tuple(notes),
             attribution=_one_line(columns.attribution),
+        ),
+    )
+
+
+def place(
+    columns: Columns, knowledge: FeatureIndex, like: LandmarkMap, crs: str | None = None
+) -> LandmarkMap:
+    """The rows of a file that lie in the area of a map, in its frame; the same checks as `build`.
+
+    Ids are not looked at: each landmark's is the number of its row.
+
+    Args:
+        columns: what a reader found.
+        knowledge: which features there are.
+        like: the map.
+        crs: coordinate system of a file that names none; by default the map's.
+
+    Raises:
+        LandmarkError: a coordinate, confidence or time is wrong; names its place.
+        GeometryError: the coordinate system cannot be brought into the map's.
+    """
+    notes: list[str] = []
+    default = crs or (DEGREES if like.frame.geographic else METRES)
+    name = columns.crs if columns.crs_from != "default" else default
+    system = coordinate_system(name, columns.source)
+    if (canonical(name) == METRES) == like.frame.geographic:
+        raise GeometryError(
+            f"{columns.source}: its coordinates are in {name}, the map is in {like.frame.name}"
+        )
+    check_positions(columns, system)
+    check_confidence(columns)
+    times, agents = read_times(columns, notes), read_agents(columns)
+    everything = np.ones(len(columns), bool)
+    x, y = like.frame.to_metres(*_outside(columns, system, everything))
+    west, south, east, north = like.bbox
+    inside = (x >= west) & (x <= east) & (y >= south) & (y <= north)
+    features, unknown = _features(columns, inside, knowledge)
+    keep = inside & (features >= 0)
+    feature = features[keep]
+    confidence = np.ones(len(columns)) if columns.confidence is None else columns.confidence
+    return LandmarkMap(
+        feature=feature,
+        x=x[keep],
+        y=y[keep],
+        confidence=confidence[keep],
+        static=np.array([known.static for known in knowledge.features], np.bool_)[feature],
+        id=np.flatnonzero(keep).astype(np.str_),
+        frame=like.frame,
+        bbox=like.bbox,
+        surveyed=like.surveyed,
+        time=None if times is None else times[keep],
+        agent=None if agents is None else agents[keep],
+        report=ReadReport(
+            source=columns.source,
+            read=int(keep.sum()),
+            unknown=unknown,
+            outside=int((~inside).sum()),
+            notes=tuple(notes),
         ),
     )
 

@@ -36,7 +36,7 @@ def read(source: Source, knowledge: FeatureIndex, progress: Progress) -> Columns
     data = source.read()
     if not data.strip():
         raise LandmarkError("the file is empty", source=source.name)
-    return from_object(_parse(data, source.name), source.name, knowledge)
+    return from_object(parse(data, source.name), source.name, knowledge)
 
 
 def from_object(document: object, name: str, knowledge: FeatureIndex) -> Columns:
@@ -107,7 +107,12 @@ def from_object(document: object, name: str, knowledge: FeatureIndex) -> Columns
     )
 
 
-def _parse(data: bytes, name: str) -> object:
+def parse(data: bytes, name: str) -> object:
+    """The JSON of a file.
+
+    Raises:
+        LandmarkError: it is none.
+    """
     try:
         return json.loads(data)
     except json.JSONDecodeError as error:

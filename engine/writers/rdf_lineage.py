@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from datetime import datetime
 from typing import Any
 
@@ -29,12 +29,15 @@ from symboslam.engine.writers.vocabulary import (
 from symboslam.reasoning.vocabulary import SL
 
 
-def provenance(records: Records, ended: datetime | None) -> Iterator[Record]:
+def provenance(
+    records: Records, ended: datetime | None, landmarks: tuple[int, Iterable[str]] | None = None
+) -> Iterator[Record]:
     """The map, the run that made it, and what the run used.
 
     Args:
         records: the map.
         ended: when the run ended; None leaves it out.
+        landmarks: how many there are, and who observed them, where ``records`` holds only some.
     """
     s, m, a = records.syntax, records.map, records.a
     area = shapely.to_wkt(
@@ -79,8 +82,9 @@ def provenance(records: Records, ended: datetime | None) -> Iterator[Record]:
             (s.iri(SL + "sha256"), [s.text(m.knowledge.source_hash)]),
         ],
     )
-    yield s.own("landmarks"), _landmark_set(records)
-    for name in _agents(m.landmarks.agent):
+    count, agents = landmarks or (len(m.landmarks), _agents(m.landmarks.agent))
+    yield s.own("landmarks"), _landmark_set(records, count)
+    for name in agents:
         yield s.own("agent", name), [a(PROV + "Agent"), (s.iri(RDFS + "label"), [s.text(name)])]
 
 
@@ -123,24 +127,24 @@ def _setting(records: Records, name: str, value: Any) -> Properties:
     ]
 
 
-def _landmark_set(records: Records) -> Properties:
+def _landmark_set(records: Records, count: int) -> Properties:
     """What was read, and what of it was left out and why."""
     s, report = records.syntax, records.map.landmarks.report
     found: Properties = [
         records.a(SL + "LandmarkSet", PROV + "Entity"),
-        (s.iri(SL + "landmarkCount"), [s.integer(len(records.map.landmarks))]),
+        (s.iri(SL + "landmarkCount"), [s.integer(count)]),
     ]
     if report.source:
         found.append((s.iri(DCTERMS + "source"), [s.text(source_name(records.map))]))
     found += _rights(records)
     left = [("not in the ontology", name, n) for name, n in sorted(report.unknown.items())]
     left += [("outside the area", "", report.outside), ("duplicate", "", report.duplicates)]
-    for cause, what, count in left:
-        if count:
+    for cause, what, number in left:
+        if number:
             node: Properties = [
                 records.a(SL + "LeftOut"),
                 (s.iri(SL + "cause"), [s.text(cause, "en")]),
-                (s.iri(SL + "count"), [s.integer(count)]),
+                (s.iri(SL + "count"), [s.integer(number)]),
             ]
             if what:
                 node.append((s.iri(RDFS + "label"), [s.text(what)]))

@@ -149,8 +149,9 @@ class NQuads(Syntax):
     def statements(self, graph: str, subject: str, properties: Properties) -> str:
         """Lines; blank nodes are named after their subject, so that files can be compared."""
         lines: list[str] = []
-        node = f"_:b{hashlib.sha256(subject.encode()).hexdigest()[:12]}n"
         count = 0
+
+        root = subject
 
         def add(subject: str, properties: Properties) -> None:
             nonlocal count
@@ -160,12 +161,26 @@ class NQuads(Syntax):
                         lines.append(f"{subject} {predicate} {value} {graph} .\n")
                     else:
                         count += 1
-                        blank = f"{node}{count}"
+                        blank = self._node(root, count)
                         lines.append(f"{subject} {predicate} {blank} {graph} .\n")
                         add(blank, value)
 
         add(subject, properties)
         return "".join(lines)
+
+    def _node(self, subject: str, number: int) -> str:
+        """A blank node of a subject."""
+        return f"_:b{hashlib.sha256(subject.encode()).hexdigest()[:12]}n{number}"
+
+
+class Skolemised(NQuads):
+    """N-Quads with an IRI in the place of each blank node (RDF 1.1 Concepts, 3.5).
+
+    So that stores can take back what was stated. The IRIs lie below that of the subject.
+    """
+
+    def _node(self, subject: str, number: int) -> str:
+        return f"{subject[:-1]}/.well-known/genid/{number}>"
 
 
 _INDENT = "\n    "

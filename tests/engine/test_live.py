@@ -58,6 +58,9 @@ def follow(live: LiveMap, told: dict[str, tuple[Any, ...]]) -> None:
     change = live.catch_up()
     if change is None:
         return
+    if change.changed is None:
+        assert not change.gone
+        return
     for name in change.gone:
         del told[name]
     told.update(rows(change.changed))

@@ -1,0 +1,1 @@
+"""Maps that are kept: their records, the statements about them, and their addresses."""

@@ -1,0 +1,255 @@
+"""Maps: made, opened when they are first needed, removed."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import hashlib
+from dataclasses import asdict, replace
+from datetime import UTC, datetime
+from pathlib import Path
+from secrets import token_hex
+from typing import Any
+
+import numpy as np
+import shapely
+
+from symboslam.engine.frame import Frame
+from symboslam.engine.landmarks import LandmarkMap
+from symboslam.engine.live import LiveMap
+from symboslam.engine.sightings import Sightings
+from symboslam.engine.table import Landmark
+from symboslam.engine.writers.vocabulary import MAPS
+from symboslam.errors import InputError, StoreError, UnknownNameError
+from symboslam.reasoning.knowledge import Knowledge
+from symboslam.service.maps.records import MapRecord, Records
+from symboslam.service.maps.running import RunningMap, add_left_out, report_of
+from symboslam.service.maps.statements import GRAPHS, Statements
+from symboslam.service.store._base import MissingGraphError, Store
+from symboslam.service.vocabulary import N_TRIPLES
+
+BUNDLED = "bundled"
+MOST_CELLS = 192
+"""Finest cells along each side that a kept map may have: 8 times the paper's."""
+
+
+class Maps:
+    """All maps of a service.
+
+    Args:
+        records: where they are kept.
+        store: where they are stated.
+        ontologies: folder for the ontologies that maps use, taken from the store.
+    """
+
+    def __init__(self, records: Records, store: Store, ontologies: Path) -> None:
+        self.records, self._store, self._ontologies = records, store, ontologies
+        self._running: dict[str, RunningMap] = {}
+        self._knowledge: dict[str, Knowledge] = {}
+        self._opening: dict[str, asyncio.Lock] = {}
+        self._catching_up: asyncio.Task[None] | None = None
+
+    async def start(self) -> None:
+        """State what the store was not told before the service stopped, in the background."""
+        behind = []
+        for identifier in await asyncio.to_thread(self.records.maps):
+            record = self.records.map(identifier)
+            if record is not None and record.stated != record.revision:
+                behind.append(identifier)
+
+        async def catch_up() -> None:
+            for identifier in behind:
+                with contextlib.suppress(StoreError, UnknownNameError):
+                    await (await self.open(identifier)).state()
+
+        self._catching_up = asyncio.create_task(catch_up())
+
+    async def stop(self) -> None:
+        """Let running batches end."""
+        if self._catching_up is not None:
+            self._catching_up.cancel()
+            await asyncio.wait([self._catching_up])
+        for running in list(self._running.values()):
+            await running.stop()
+
+    async def knowledge(self, ontology: str) -> Knowledge:
+        """The knowledge of an ontology: the bundled one, or that of a graph in the store.
+
+        Raises:
+            InputError: there is no such graph.
+            OntologyError: it cannot be used.
+        """
+        if ontology not in self._knowledge:
+            path = None if ontology == BUNDLED else self._ontologies / ontology
+            self._knowledge[ontology] = await asyncio.to_thread(Knowledge.load, path)
+        return self._knowledge[ontology]
+
+    async def keep_ontology(self, ontology: str | None) -> str:
+        """The name by which `knowledge` knows an ontology; a graph is copied as it is now.
+
+        Raises:
+            InputError: there is no such graph.
+        """
+        if ontology in (None, BUNDLED):
+            return BUNDLED
+        try:
+            answer = await self._store.read_graph(ontology, N_TRIPLES, gzip=False)
+        except MissingGraphError as error:
+            problem = f"ontology: {error}; upload it to /graphs?graph=IRI, or say {BUNDLED!r}"
+            raise InputError(problem) from error
+        if isinstance(answer.body, bytes):
+            data = answer.body
+        else:
+            with answer.body as file:
+                data = await asyncio.to_thread(file.read)
+        name = f"{hashlib.sha256(data).hexdigest()[:32]}.nt"
+
+        def keep() -> None:
+            self._ontologies.mkdir(parents=True, exist_ok=True)
+            (self._ontologies / name).write_bytes(data)
+
+        await asyncio.to_thread(keep)
+        return name
+
+    async def create(
+        self, name: str, area: LandmarkMap, options: dict[str, Any], identifier: str | None = None
+    ) -> RunningMap:
+        """Make a map of an area; landmarks of the area become its first ones, each as it is.
+
+        Args:
+            name: what people call it.
+            area: frame, box, surveyed area and report.
+            options: ``ontology``, ``profile``, ``scheme``, ``settings``, ``merge_radius``,
+                ``reasons``, ``source``, ``attribution``.
+            identifier: its id; a new one by default.
+
+        Raises:
+            InputError: an option is wrong.
+            StoreError: it cannot be kept.
+        """
+        now = datetime.now(UTC).isoformat(timespec="milliseconds")
+        record = MapRecord(
+            id=identifier or token_hex(6), name=name, created=now, changed=now,
+            area=_plain(area), options=options,
+        )  # fmt: skip
+        add_left_out(record.left_out, area.report)
+        knowledge = await self.knowledge(options["ontology"])
+        landmarks = _landmarks(area)
+        running = await asyncio.to_thread(self._make, record, knowledge, landmarks, {})
+        await asyncio.to_thread(self.records.add, record)
+        features = knowledge.features
+        if landmarks:
+            await asyncio.to_thread(
+                self.records.take, record,
+                [(features[m.feature].iri, m) for m in landmarks], [], [],
+            )  # fmt: skip
+        self._running[record.id] = running
+        await running.state()
+        return running
+
+    async def open(self, identifier: str) -> RunningMap:
+        """A map, in memory from now on.
+
+        Raises:
+            UnknownNameError: there is no such map.
+        """
+        running = self._running.get(identifier)
+        if running is not None and not running.broken:
+            return running
+        async with self._opening.setdefault(identifier, asyncio.Lock()):
+            running = self._running.get(identifier)
+            if running is not None and not running.broken:
+                return running
+            record = await asyncio.to_thread(self.records.map, identifier)
+            if record is None:
+                self._opening.pop(identifier, None)
+                raise UnknownNameError(f"there is no map {identifier[:80]!r}")
+            knowledge = await self.knowledge(record.options["ontology"])
+            landmarks = [
+                Landmark(feature=index, **rest)
+                for iri, rest in await asyncio.to_thread(
+                    lambda: list(self.records.landmarks(identifier))
+                )
+                if (index := knowledge.index_of(iri)) is not None
+            ]
+            names = await asyncio.to_thread(self.records.names, identifier)
+            # What it states is computed anew, and may differ in its last digit.
+            record = replace(record, stated=-1)
+            running = await asyncio.to_thread(self._make, record, knowledge, landmarks, names)
+            self._running[identifier] = running
+            return running
+
+    async def remove(self, identifier: str) -> None:
+        """Remove a map and what is stated of it.
+
+        Raises:
+            UnknownNameError: there is no such map.
+        """
+        running = await self.open(identifier)
+        await asyncio.to_thread(self.records.remove, identifier)
+        self._running.pop(identifier, None)
+        await running.stop()
+        for name in reversed(GRAPHS):
+            with contextlib.suppress(MissingGraphError):
+                await self._store.drop_graph(f"{base_of(identifier)}{name}")
+
+    def _make(
+        self,
+        record: MapRecord,
+        knowledge: Knowledge,
+        landmarks: list[Landmark],
+        names: dict[tuple[str, str], str],
+    ) -> RunningMap:
+        options = record.options
+        area = replace(_area(record.area), report=report_of(record))
+        live = LiveMap(
+            area, knowledge, profile=options["profile"], scheme=options["scheme"],
+            **options["settings"],
+        )  # fmt: skip
+        if live.config["cells"] > MOST_CELLS:
+            cells = live.config["cells"]
+            raise InputError(f"cells is {cells}; a map that is kept has at most {MOST_CELLS}")
+        for landmark in landmarks:
+            live.table.put(landmark)
+        live.catch_up()
+        return RunningMap(
+            record, live, knowledge,
+            Statements(live, base_of(record.id), options["reasons"]),
+            Sightings(live.table, options["merge_radius"], names), self.records, self._store,
+        )  # fmt: skip
+
+
+def base_of(identifier: str) -> str:
+    """IRI below which a map's own IRIs and graphs lie."""
+    return f"{MAPS}{identifier}/"
+
+
+def _landmarks(area: LandmarkMap) -> list[Landmark]:
+    """The landmarks of a map, each seen once."""
+    times = [None] * len(area) if area.time is None else area.time.tolist()
+    agents = [None] * len(area) if area.agent is None else area.agent.tolist()
+    columns = (area.id, area.feature, area.x, area.y, area.confidence)
+    return [
+        Landmark(*values, time, agent, 1, values[-1])
+        for *values, time, agent in zip(*(c.tolist() for c in columns), times, agents, strict=True)
+    ]
+
+
+def _plain(area: LandmarkMap) -> dict[str, Any]:
+    """Where a map lies, as plain values."""
+    surveyed = None if area.surveyed is None else area.surveyed.wkt
+    return {"frame": asdict(area.frame), "bbox": list(area.bbox), "surveyed": surveyed}
+
+
+def _area(values: dict[str, Any]) -> LandmarkMap:
+    """A map without landmarks where `_plain` says."""
+    none = np.zeros(0)
+    frame = Frame(values["frame"]["geographic"], tuple(values["frame"]["origin"]))
+    west, south, east, north = values["bbox"]
+    surveyed = values["surveyed"]
+    return LandmarkMap(
+        feature=none.astype(np.int32), x=none, y=none, confidence=none,
+        static=none.astype(np.bool_), id=none.astype(np.str_), frame=frame,
+        bbox=(west, south, east, north),
+        surveyed=None if surveyed is None else shapely.from_wkt(surveyed),
+    )  # fmt: skip

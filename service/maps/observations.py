@@ -1,0 +1,125 @@
+"""Observations as they are sent: NDJSON or GeoJSON -> landmarks in the frame of a map."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
+from typing import Any
+
+from symboslam.engine.landmarks import LandmarkMap, ReadReport
+from symboslam.engine.readers import geojson
+from symboslam.engine.readers.build import place
+from symboslam.engine.readers.checks import UNWRITABLE
+from symboslam.engine.table import Landmark
+from symboslam.errors import InputError, LandmarkError
+from symboslam.reasoning.knowledge import Knowledge
+from symboslam.service.vocabulary import NDJSON
+
+_MEMBERS = ("class", "tags", "confidence", "time", "agent")
+_LONGEST_ID = 256
+
+
+@dataclass(frozen=True)
+class Observations:
+    """A batch, ready to be merged.
+
+    Attributes:
+        landmarks: each observation as a landmark, and the id that its agent gave it, if any.
+        report: what was taken and what was left out.
+        received: how many there were in all.
+    """
+
+    landmarks: tuple[tuple[Landmark, str], ...]
+    report: ReadReport
+    received: int
+
+
+def read(
+    body: bytes,
+    media_type: str,
+    area: LandmarkMap,
+    knowledge: Knowledge,
+    *,
+    agent: str | None = None,
+    crs: str | None = None,
+) -> Observations:
+    """Read a batch.
+
+    Args:
+        body: as it was sent.
+        media_type: ``GEOJSON`` or ``NDJSON``; anything else is taken for GeoJSON.
+        area: the map that the observations are for.
+        knowledge: which features there are.
+        agent: who observed, where an observation does not say so.
+        crs: coordinate system, where the body names none; the map's by default.
+
+    Raises:
+        InputError: it does not parse, or an observation is wrong; names its place.
+    """
+    document = _lines(body) if media_type == NDJSON else geojson.parse(body, "body")
+    columns = geojson.from_object(document, "body", knowledge)
+    if media_type == NDJSON:
+        columns = replace(columns, place=lambda row: f"line {row + 1}")
+    names = [str(name or "") for name in columns.id or [""] * len(columns)]
+    for row, name in enumerate(names):
+        if len(name) > _LONGEST_ID or UNWRITABLE.search(name):
+            problem = f"the id {name[:80]!r} is longer than {_LONGEST_ID} or is no text"
+            raise LandmarkError(problem, source="body", where=columns.place(row))
+    found = place(columns, knowledge, area, crs)
+    now = datetime.now(UTC).isoformat(timespec="milliseconds")
+    rows = [int(number) for number in found.id]
+    times = [None] * len(rows) if found.time is None else list(found.time)
+    agents = [None] * len(rows) if found.agent is None else list(found.agent)
+    landmarks = tuple(
+        (Landmark("", feature, x, y, confidence, time or now, who or agent), names[row])
+        for row, feature, x, y, confidence, time, who in zip(
+            rows, found.feature.tolist(), found.x.tolist(), found.y.tolist(),
+            found.confidence.tolist(), times, agents, strict=True,
+        )
+    )  # fmt: skip
+    return Observations(landmarks, found.report, len(columns))
+
+
+def _lines(body: bytes) -> dict[str, Any]:
+    """NDJSON -> the GeoJSON collection that says the same."""
+    features = []
+    for number, line in enumerate(body.splitlines(), 1):
+        if line.strip():
+            features.append(_feature(line, number))
+    return {"type": "FeatureCollection", "features": features}
+
+
+def _feature(line: bytes, number: int) -> dict[str, Any]:
+    try:
+        value = json.loads(line)
+    except (ValueError, RecursionError) as error:
+        problem = getattr(error, "msg", "it is not JSON in UTF-8")
+        raise LandmarkError(problem, source="body", where=f"line {number}") from error
+    if not isinstance(value, dict):
+        problem = "it is no JSON object"
+        raise LandmarkError(problem, source="body", where=f"line {number}")
+    if value.get("type") == "Feature":
+        return value
+    unknown = sorted(set(value) - {*_MEMBERS, "id", "coordinates"})
+    if unknown:
+        known = ", ".join(["coordinates", "id", *_MEMBERS])
+        problem = f"it has a member {unknown[0][:40]!r}; there are {known}"
+        raise LandmarkError(problem, source="body", where=f"line {number}")
+    return {
+        "type": "Feature",
+        "id": value.get("id"),
+        "geometry": {"type": "Point", "coordinates": value.get("coordinates")},
+        "properties": {name: value[name] for name in _MEMBERS if name in value},
+    }
+
+
+def check_agent(name: str | None) -> str | None:
+    """The name of an agent, checked.
+
+    Raises:
+        InputError: it is too long or is no text.
+    """
+    if name and (len(name) > _LONGEST_ID or UNWRITABLE.search(name)):
+        raise InputError(f"the agent {name[:80]!r} is longer than {_LONGEST_ID} or is no text")
+    return name or None

@@ -1,0 +1,259 @@
+"""Records: what is known of maps, in SQLite; the store is made from it and can be made anew."""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+import threading
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+from symboslam.engine.sightings import Name
+from symboslam.engine.table import Landmark
+from symboslam.errors import StoreError
+
+_TABLES = """
+CREATE TABLE IF NOT EXISTS map (
+  id TEXT PRIMARY KEY, name TEXT NOT NULL, created TEXT NOT NULL, area TEXT NOT NULL,
+  options TEXT NOT NULL, left_out TEXT NOT NULL DEFAULT '{}', revision INTEGER NOT NULL DEFAULT 0,
+  changed TEXT NOT NULL, stated INTEGER NOT NULL DEFAULT -1
+) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS landmark (
+  map TEXT NOT NULL REFERENCES map ON DELETE CASCADE, id TEXT NOT NULL, feature TEXT NOT NULL,
+  x REAL NOT NULL, y REAL NOT NULL, confidence REAL NOT NULL, time TEXT, agent TEXT,
+  count INTEGER NOT NULL, weight REAL NOT NULL, PRIMARY KEY (map, id)
+) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS name (
+  map TEXT NOT NULL REFERENCES map ON DELETE CASCADE, agent TEXT NOT NULL, name TEXT NOT NULL,
+  landmark TEXT NOT NULL, PRIMARY KEY (map, agent, name)
+) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS batch (
+  map TEXT NOT NULL REFERENCES map ON DELETE CASCADE, id TEXT NOT NULL, digest TEXT NOT NULL,
+  received TEXT NOT NULL, result TEXT NOT NULL, PRIMARY KEY (map, id)
+) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS override (
+  map TEXT NOT NULL REFERENCES map ON DELETE CASCADE, id TEXT NOT NULL, segment TEXT NOT NULL,
+  environment TEXT, operator TEXT NOT NULL, reason TEXT NOT NULL, made TEXT NOT NULL, undone TEXT,
+  snapshot TEXT NOT NULL, PRIMARY KEY (map, id)
+) WITHOUT ROWID;
+"""
+
+
+@dataclass(frozen=True)
+class MapRecord:
+    """A map as it was asked for.
+
+    Attributes:
+        id: its identifier.
+        name: what people call it.
+        created: when, ISO 8601.
+        area: frame, box and surveyed area, as plain values.
+        options: profile, scheme, ontology, settings and the rest, as plain values.
+        left_out: kind of cause -> how many observations were left out so far.
+        revision: how often it changed.
+        changed: when it did last, ISO 8601.
+        stated: the revision that the store is at; -1 = none.
+    """
+
+    id: str
+    name: str
+    created: str
+    area: dict[str, Any]
+    options: dict[str, Any]
+    changed: str
+    left_out: Counter[str] = field(default_factory=Counter)
+    revision: int = 0
+    stated: int = -1
+
+
+@dataclass(frozen=True)
+class Override:
+    """An operator's statement that a segment is of another type.
+
+    Attributes:
+        id: its identifier in the map.
+        segment: the segment.
+        environment: IRI of the type; None = unknown.
+        operator: who says so.
+        reason: why, in the operator's words.
+        made: when, ISO 8601.
+        undone: when it was taken back, or None.
+        snapshot: what was stated of the segment when it was made, as N-Quads.
+    """
+
+    id: str
+    segment: str
+    environment: str | None
+    operator: str
+    reason: str
+    made: str
+    undone: str | None = None
+    snapshot: str = ""
+
+
+class Records:
+    """Maps, landmarks, batches and overrides; any thread may call.
+
+    Args:
+        database: an open one; the tables are made if they are not there.
+
+    Raises:
+        StoreError: (all methods) the database cannot be read or written; nothing has changed.
+    """
+
+    def __init__(self, database: sqlite3.Connection) -> None:
+        self._database, self._lock = database, threading.Lock()
+        with self._errors():
+            self._database.executescript(_TABLES)
+
+    def maps(self) -> list[str]:
+        """Ids of all maps, the oldest first."""
+        return [row[0] for row in self._all("SELECT id FROM map ORDER BY created, id")]
+
+    def map(self, identifier: str) -> MapRecord | None:
+        """A map, or None."""
+        rows = self._all(
+            "SELECT id, name, created, area, options, changed, left_out, revision, stated"
+            " FROM map WHERE id = ?",
+            identifier,
+        )
+        if not rows:
+            return None
+        i, name, created, area, options, changed, left_out, revision, stated = rows[0]
+        return MapRecord(
+            i, name, created, json.loads(area), json.loads(options), changed,
+            Counter(json.loads(left_out)), revision, stated,
+        )  # fmt: skip
+
+    def landmarks(self, identifier: str) -> Iterator[tuple[str, dict[str, Any]]]:
+        """The landmarks of a map: IRI of their feature, and everything else."""
+        columns = "feature, id, x, y, confidence, time, agent, count, weight"
+        for row in self._all(f"SELECT {columns} FROM landmark WHERE map = ?", identifier):
+            yield row[0], dict(zip(columns.split(", ")[1:], row[1:], strict=True))
+
+    def names(self, identifier: str) -> dict[Name, str]:
+        """What agents call the landmarks of a map."""
+        rows = self._all("SELECT agent, name, landmark FROM name WHERE map = ?", identifier)
+        return {(agent, name): landmark for agent, name, landmark in rows}
+
+    def batch(self, identifier: str, batch: str) -> tuple[str, dict[str, Any]] | None:
+        """Digest and result of a batch that was taken, or None."""
+        rows = self._all(
+            "SELECT digest, result FROM batch WHERE map = ? AND id = ?", identifier, batch
+        )
+        return (rows[0][0], json.loads(rows[0][1])) if rows else None
+
+    def batches(self, identifier: str) -> int:
+        """How many batches were taken."""
+        return int(self._all("SELECT count(*) FROM batch WHERE map = ?", identifier)[0][0])
+
+    def overrides(self, identifier: str) -> list[Override]:
+        """The overrides of a map, the oldest first; those taken back included."""
+        rows = self._all(
+            "SELECT id, segment, environment, operator, reason, made, undone, snapshot"
+            " FROM override WHERE map = ? ORDER BY made, id",
+            identifier,
+        )
+        return [Override(*row) for row in rows]
+
+    def add(self, record: MapRecord) -> None:
+        """Add a map."""
+        with self._transaction() as database:
+            database.execute(
+                "INSERT INTO map (id, name, created, area, options, changed, left_out, revision)"
+                " VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
+                (
+                    record.id, record.name, record.created, json.dumps(record.area),
+                    json.dumps(record.options), record.changed, json.dumps(record.left_out),
+                    record.revision,
+                ),
+            )  # fmt: skip
+
+    def remove(self, identifier: str) -> None:
+        """Remove a map and all that belongs to it."""
+        with self._transaction() as database:
+            database.execute("DELETE FROM map WHERE id = ?", (identifier,))
+
+    def take(
+        self,
+        record: MapRecord,
+        landmarks: Iterable[tuple[str, Landmark]],
+        names: Iterable[tuple[Name, str]],
+        batches: Iterable[tuple[str, str, dict[str, Any]]],
+    ) -> None:
+        """Keep what batches did to a map: all of it or nothing.
+
+        Args:
+            record: the map with its new revision.
+            landmarks: those that changed, each after the IRI of its feature.
+            names: what agents call them.
+            batches: id, digest and result of each.
+        """
+        i = record.id
+        with self._transaction() as database:
+            database.executemany(
+                "INSERT OR REPLACE INTO landmark VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+                (
+                    (i, m.id, iri, m.x, m.y, m.confidence, m.time, m.agent, m.count, m.weight)
+                    for iri, m in landmarks
+                ),
+            )
+            database.executemany(
+                "INSERT OR REPLACE INTO name VALUES (?, ?, ?, ?)",
+                ((i, agent, name, landmark) for (agent, name), landmark in names),
+            )
+            database.executemany(
+                "INSERT INTO batch VALUES (?, ?, ?, ?, ?)",
+                (
+                    (i, b, digest, record.changed, json.dumps(result))
+                    for b, digest, result in batches
+                ),
+            )
+            database.execute(
+                "UPDATE map SET revision = ?, changed = ?, left_out = ? WHERE id = ?",
+                (record.revision, record.changed, json.dumps(record.left_out), i),
+            )
+
+    def keep_override(self, record: MapRecord, override: Override) -> None:
+        """Add an override, or change one."""
+        values = asdict(override)
+        with self._transaction() as database:
+            database.execute(
+                f"INSERT OR REPLACE INTO override (map, {', '.join(values)})"
+                f" VALUES (?{', ?' * len(values)})",
+                (record.id, *values.values()),
+            )
+            database.execute(
+                "UPDATE map SET revision = ?, changed = ? WHERE id = ?",
+                (record.revision, record.changed, record.id),
+            )
+
+    def stated(self, identifier: str, revision: int) -> None:
+        """Note the revision that the store is at."""
+        with self._transaction() as database:
+            database.execute("UPDATE map SET stated = ? WHERE id = ?", (revision, identifier))
+
+    def _all(self, query: str, *values: str) -> list[tuple[Any, ...]]:
+        with self._errors(), self._lock:
+            return self._database.execute(query, values).fetchall()
+
+    @contextmanager
+    def _transaction(self) -> Iterator[sqlite3.Connection]:
+        with self._errors(), self._lock:
+            self._database.execute("BEGIN IMMEDIATE")
+            try:
+                yield self._database
+                self._database.execute("COMMIT")
+            except BaseException:
+                self._database.rollback()
+                raise
+
+    @contextmanager
+    def _errors(self) -> Iterator[None]:
+        try:
+            yield
+        except sqlite3.Error as error:
+            raise StoreError(f"the records cannot be read or written: {error}") from error

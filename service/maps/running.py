@@ -1,0 +1,300 @@
+"""RunningMap: one map in memory; takes batches and overrides, and keeps the store up to date.
+
+Batches that arrive while others are worked on are taken together. Each is recorded first, in one
+transaction with the landmarks that it changed; then the segments are classified, the store is
+changed in one piece, and whoever sent the batches gets an answer. Should the process die before
+that, the store is made from the records when the map is next opened.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from datetime import UTC, datetime
+from typing import Any, TypeVar
+
+from symboslam.engine.environment_map import EnvironmentMap
+from symboslam.engine.landmarks import ReadReport
+from symboslam.engine.live import Change, LiveMap
+from symboslam.engine.sightings import Name, Sightings
+from symboslam.reasoning.knowledge import Knowledge
+from symboslam.service.maps.events import Events
+from symboslam.service.maps.observations import Observations
+from symboslam.service.maps.records import MapRecord, Override, Records
+from symboslam.service.maps.statements import GRAPHS, Statements
+from symboslam.service.store._base import BusyError, Document, Store
+from symboslam.service.vocabulary import N_TRIPLES
+
+T = TypeVar("T")
+MOST_WAITING = 256
+"""Batches that may wait for a map."""
+_TOGETHER = 64
+"""Batches that are taken at a time."""
+
+
+class BatchConflictError(Exception):
+    """Another batch with the same id was taken before."""
+
+
+@dataclass
+class Waiting:
+    """A batch that waits.
+
+    Attributes:
+        id: its identifier; the same is taken once.
+        digest: of its content.
+        observations: what is in it.
+        done: its result, when it can be seen by SPARQL.
+    """
+
+    id: str
+    digest: str
+    observations: Observations
+    done: asyncio.Future[dict[str, Any]] = field(repr=False)
+
+
+class RunningMap:
+    """A map that is kept up to date.
+
+    Args:
+        record: the map.
+        live: its landmarks and segments.
+        knowledge: what it is classified with.
+        statements: what the store says of it.
+        sightings: merges observations into its landmarks.
+        records: where everything is kept.
+        store: where it is stated.
+    """
+
+    def __init__(
+        self, record: MapRecord, live: LiveMap, knowledge: Knowledge, statements: Statements,
+        sightings: Sightings, records: Records, store: Store,
+    ) -> None:  # fmt: skip
+        self.record, self.live, self.knowledge = record, live, knowledge
+        self.events = Events(record.revision)
+        self.broken = False
+        self._statements, self._sightings = statements, sightings
+        self._records, self._store = records, store
+        self._lock = asyncio.Lock()
+        self._waiting: list[Waiting] = []
+        self._worker: asyncio.Task[None] | None = None
+        self._cache: dict[str, tuple[int, Any]] = {}
+
+    async def read(self, key: str, make: Callable[[LiveMap], T]) -> T:
+        """Something made of the map as it is now; the same is made once for each revision."""
+        async with self._lock:
+            revision, found = self._cache.get(key, (-1, None))
+            if revision != self.record.revision:
+                found = await asyncio.to_thread(make, self.live)
+                self._cache[key] = self.record.revision, found
+            return found  # type: ignore[no-any-return]
+
+    async def segment(self, name: str) -> EnvironmentMap:
+        """One segment with the landmarks that have a say.
+
+        Raises:
+            UnknownNameError: no such segment.
+        """
+        async with self._lock:
+            return await asyncio.to_thread(self.live.segment, name)
+
+    async def state(self) -> None:
+        """Make the store say what the records say, whatever it said before."""
+        async with self._lock:
+            await self._state()
+
+    async def take(self, batch: str, digest: str, observations: Observations) -> dict[str, Any]:
+        """Take a batch; it can be seen by SPARQL when this returns.
+
+        Raises:
+            BatchConflictError: another one with this id was taken.
+            BusyError: too many wait.
+            StoreError: it cannot be kept, or not be stated yet.
+        """
+        if len(self._waiting) >= MOST_WAITING:
+            raise BusyError(f"{len(self._waiting)} batches of this map are waiting already")
+        done: asyncio.Future[dict[str, Any]] = asyncio.get_running_loop().create_future()
+        self._waiting.append(Waiting(batch, digest, observations, done))
+        if self._worker is None or self._worker.done():
+            self._worker = asyncio.create_task(self._work())
+        return await asyncio.shield(done)
+
+    async def override(self, override: Override) -> Override:
+        """Make an operator's statement, or take it back."""
+        async with self._lock:
+            await self._ready()
+            if not override.snapshot:
+                snapshot = self._statements.of_segment(override.segment)
+                override = replace(override, snapshot=snapshot)
+            record = self._next()
+            await asyncio.to_thread(self._records.keep_override, record, override)
+            self.record = record
+            await self._patch(*self._statements.override(override))
+            self.events.publish(
+                record.revision, {"override": override.id, "segment": override.segment}
+            )
+            return override
+
+    async def stop(self) -> None:
+        """Wait for what is being worked on, and end event streams."""
+        if self._worker is not None:
+            await asyncio.wait([self._worker])
+        self.events.close()
+
+    async def _work(self) -> None:
+        while self._waiting:
+            group, self._waiting = self._waiting[:_TOGETHER], self._waiting[_TOGETHER:]
+            try:
+                async with self._lock:
+                    await self._take(group)
+            except Exception as error:  # every sender is told; the map is opened anew
+                for each in group:
+                    if not each.done.done():
+                        each.done.set_exception(error)
+
+    async def _take(self, group: list[Waiting]) -> None:
+        await self._ready()
+        try:
+            results, change = await asyncio.to_thread(self._merge, group)
+        except BaseException:
+            self.broken = True  # memory may be ahead of the records
+            raise
+        if change is not None:
+            ended = datetime.fromisoformat(self.record.changed)
+            await self._patch(*await asyncio.to_thread(self._statements.change, change, ended))
+            self.events.publish(self.record.revision, told(change))
+        for each in group:
+            result = results[each.id, each.digest]
+            if isinstance(result, BatchConflictError):
+                each.done.set_exception(result)
+            else:
+                each.done.set_result(result)
+
+    def _merge(
+        self, group: list[Waiting]
+    ) -> tuple[dict[tuple[str, str], dict[str, Any] | BatchConflictError], Change | None]:
+        """Merge batches and record them; the result of each, and what changed."""
+        record = self._next()
+        results: dict[tuple[str, str], dict[str, Any] | BatchConflictError] = {}
+        taken: dict[str, tuple[str, dict[str, Any]]] = {}
+        names: dict[Name, str] = {}
+        for each in group:
+            known = taken.get(each.id) or self._records.batch(record.id, each.id)
+            if known is None:
+                result = self._observe(each, record, names)
+                known = taken[each.id] = each.digest, result
+            results[each.id, each.digest] = (
+                known[1] if known[0] == each.digest else BatchConflictError(each.id)
+            )
+        if not taken:
+            return results, None
+        self.live.report = report_of(record)
+        change = self.live.catch_up() or Change({})
+        features = self.knowledge.features
+        self._records.take(
+            record,
+            ((features[m.feature].iri, m) for _, m in change.landmarks.values() if m is not None),
+            names.items(),
+            ((batch, digest, result) for batch, (digest, result) in taken.items()),
+        )
+        self.record = record
+        return results, change
+
+    def _observe(self, batch: Waiting, record: MapRecord, names: dict[Name, str]) -> dict[str, Any]:
+        """Merge one batch; its result."""
+        found = batch.observations
+        new = 0
+        for seen, name in found.landmarks:
+            landmark = self._sightings.observe(seen, name)
+            new += landmark.count == 1
+            if name:
+                names[seen.agent or "", name] = landmark.id
+        add_left_out(record.left_out, found.report)
+        return {
+            "batch": batch.id,
+            "received": found.received,
+            "new": new,
+            "merged": len(found.landmarks) - new,
+            "left_out": {
+                "outside": found.report.outside,
+                "unknown": dict(found.report.unknown.most_common(_MOST_UNKNOWN)),
+            },
+            "notes": list(found.report.notes),
+            "revision": record.revision,
+        }
+
+    def _next(self) -> MapRecord:
+        """The record at the revision that comes next."""
+        now = datetime.now(UTC).isoformat(timespec="milliseconds")
+        left = Counter(self.record.left_out)
+        return replace(self.record, revision=self.record.revision + 1, changed=now, left_out=left)
+
+    async def _ready(self) -> None:
+        """Make up for what the store was not told."""
+        if self.record.stated != self.record.revision:
+            await self._state()
+
+    async def _state(self) -> None:
+        ended = datetime.fromisoformat(self.record.changed)
+        overrides = await asyncio.to_thread(self._records.overrides, self.record.id)
+        found = await asyncio.to_thread(self._statements.everything, ended, overrides)
+        for name in GRAPHS:
+            iri = f"{self._statements.base}{name}"
+            document = Document(N_TRIPLES, found[name].encode(), self._statements.base)
+            await self._store.replace_graph(iri, [document])
+        await self._stated()
+
+    async def _patch(self, removed: str, added: str) -> None:
+        await self._store.patch(removed, added)
+        await self._stated()
+
+    async def _stated(self) -> None:
+        await asyncio.to_thread(self._records.stated, self.record.id, self.record.revision)
+        self.record = replace(self.record, stated=self.record.revision)
+
+
+UNKNOWN, OUTSIDE, OTHERS = "unknown ", "outside", "(others)"
+_MOST_NAMES = 1000
+_MOST_UNKNOWN = 20
+
+
+def add_left_out(counts: Counter[str], report: ReadReport) -> None:
+    """Count what a reader left out; of very many unknown names the later ones together."""
+    for name, number in report.unknown.items():
+        key = f"{UNKNOWN}{name}"
+        full = len(counts) >= _MOST_NAMES and key not in counts
+        counts[f"{UNKNOWN}{OTHERS}" if full else key] += number
+    if report.outside:
+        counts[OUTSIDE] += report.outside
+
+
+def report_of(record: MapRecord) -> ReadReport:
+    """What was left out of a map so far."""
+    unknown = {k.removeprefix(UNKNOWN): n for k, n in record.left_out.items() if k != OUTSIDE}
+    source = str(record.options.get("source", ""))
+    attribution = str(record.options.get("attribution", ""))
+    return ReadReport(
+        source=source, unknown=Counter(unknown), outside=record.left_out[OUTSIDE],
+        attribution=attribution,
+    )  # fmt: skip
+
+
+def told(change: Change) -> dict[str, Any]:
+    """A change as plain values, for events."""
+    m = change.changed
+    segments = [] if m is None else [
+        {
+            "id": str(name),
+            "environment": m.name_of(i),
+            "probability": round(float(m.probability[i].max()), 6),
+        }
+        for i, name in enumerate(m.segment_id)
+    ]  # fmt: skip
+    return {
+        "segments": segments,
+        "gone": list(change.gone),
+        "landmarks": len(change.landmarks),
+        "everything": change.everything,
+    }

@@ -1,0 +1,181 @@
+"""What the store says of a map, as N-Quads; and what a change of the map changes in it.
+
+The model and the graphs are those of N-Quads files (engine/writers/rdf.py), with IRIs in the place
+of blank nodes, and one graph more, ``overrides``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from datetime import datetime
+
+from symboslam.engine.live import Change, LiveMap
+from symboslam.engine.table import Landmark
+from symboslam.engine.writers.content import Content
+from symboslam.engine.writers.options import WriteOptions
+from symboslam.engine.writers.rdf_lineage import provenance, terms
+from symboslam.engine.writers.rdf_records import Record, Records
+from symboslam.engine.writers.rdf_syntax import Properties, Skolemised
+from symboslam.engine.writers.vocabulary import PROV, RDF, RDFS, XSD
+from symboslam.reasoning.vocabulary import SL
+from symboslam.service.maps.records import Override
+
+GRAPHS = ("landmarks", "segments", "terms", "overrides", "provenance")
+"""Named graphs below a map's base, in the order in which a new map is written."""
+Lines = frozenset[str]
+NONE: Lines = frozenset()
+
+
+class Statements:
+    """The statements about one map.
+
+    Args:
+        live: the map.
+        base: IRI below which its own IRIs and graphs lie, ending in ``/``.
+        reasons: how many reasons of a segment are stated, the strongest first.
+    """
+
+    def __init__(self, live: LiveMap, base: str, reasons: int) -> None:
+        self._live, self.base, self._options = live, base, WriteOptions(reasons)
+        self._syntax = Skolemised(base, {})
+        self._segments: dict[str, Lines] = {}
+        self._terms = self._provenance = NONE
+        self._mentioned: dict[str, str] = {}
+        self._agents: set[str] = set()
+        self._overrides: dict[str, list[Override]] = {}
+
+    def everything(self, ended: datetime, overrides: Iterable[Override]) -> dict[str, str]:
+        """All statements as N-Triples by the name of their graph, whatever was stated before."""
+        self._segments, self._terms, self._provenance = {}, NONE, NONE
+        self._overrides = {}
+        for override in overrides:
+            self._overrides.setdefault(override.segment, []).append(override)
+        rows = self._live.table.rows().tolist()
+        landmarks = [self._live.table[row] for row in rows]
+        self._agents = {each.agent for each in landmarks if each.agent}
+        whole = self._live.environment_map()
+        content = Content(whole, self._options.reasons)
+        records = Records(content, self._syntax)
+        found = {"landmarks": self._text(records.landmarks(), "landmarks")}
+        self._segments.update(self._by_segment(records))
+        found["segments"] = "".join(line for lines in self._segments.values() for line in lines)
+        self._mentioned = content.mentioned
+        self._terms = self._lines(terms(records), "terms")
+        self._provenance = self._lines(
+            provenance(records, ended, (len(landmarks), sorted(self._agents))), "provenance"
+        )
+        found["terms"], found["provenance"] = "".join(self._terms), "".join(self._provenance)
+        found["overrides"] = "".join(self._about_overrides())
+        return {
+            name: text.replace(f" {self._graph(name)} .\n", " .\n") for name, text in found.items()
+        }
+
+    def change(self, change: Change, ended: datetime) -> tuple[str, str]:
+        """The statements that a change takes back, and those that it adds."""
+        before, after = (
+            [each for each in side if each is not None]
+            for side in zip(*change.landmarks.values(), strict=True)
+        )
+        removed, added = self._of_landmarks(before), self._of_landmarks(after)
+        self._agents.update(each.agent for each in after if each.agent)
+        told = change.changed or self._live.described(after)
+        content = Content(told, self._options.reasons)
+        records = Records(content, self._syntax)
+        for name in change.gone:
+            removed += self._segments.pop(name)
+            added += self._snapshots(name)
+        for name, lines in self._by_segment(records).items():
+            known = self._segments.get(name)
+            removed += known if known is not None else self._snapshots(name)
+            added += lines
+            self._segments[name] = lines
+        content.mentioned.update(self._mentioned)
+        self._mentioned = content.mentioned
+        seen = Records(content, self._syntax)
+        new = self._lines(terms(seen), "terms") - self._terms
+        self._terms |= new
+        lineage = self._lines(
+            provenance(records, ended, (len(self._live.table), sorted(self._agents))), "provenance"
+        )
+        removed += self._provenance
+        added += [*new, *lineage]
+        self._provenance = lineage
+        return "".join(removed), "".join(added)
+
+    def override(self, override: Override) -> tuple[str, str]:
+        """An operator's statement, made or taken back: statements to take back and to add."""
+        known = self._overrides.setdefault(override.segment, [])
+        before = [each for each in known if each.id == override.id]
+        removed = "".join(line for each in before for line in self._of_override(each))
+        known[:] = [each for each in known if each.id != override.id] + [override]
+        return removed, "".join(self._of_override(override))
+
+    def of_segment(self, name: str) -> str:
+        """What is stated of a segment now, to be kept with an override of it."""
+        return "".join(sorted(self._segments.get(name, NONE)))
+
+    def _of_landmarks(self, landmarks: Sequence[Landmark]) -> list[str]:
+        records = Records(Content(self._live.described(landmarks)), self._syntax)
+        return self._text(records.landmarks(), "landmarks").splitlines(keepends=True)
+
+    def _by_segment(self, records: Records) -> dict[str, Lines]:
+        """Segment -> its statements and those about its classification."""
+        found: dict[str, list[str]] = {}
+        segment, name = self._syntax.own("segment")[:-1] + "/", ""
+        for subject, properties in records.segments(self._options):
+            if subject.startswith(segment):
+                name = subject[len(segment) : -1]
+            text = self._syntax.statements(self._graph("segments"), subject, properties)
+            found.setdefault(name, []).extend(text.splitlines(keepends=True))
+        return {name: frozenset(lines) for name, lines in found.items()}
+
+    def _about_overrides(self) -> Iterator[str]:
+        for segment, overrides in self._overrides.items():
+            for override in overrides:
+                yield from self._of_override(override)
+            if segment not in self._segments:
+                yield from self._snapshots(segment)
+
+    def _snapshots(self, segment: str) -> list[str]:
+        """What was stated of an overridden segment, to be stated as long as it is gone."""
+        found = self._overrides.get(segment, [])
+        own, other = self._graph("segments"), self._graph("overrides")
+        lines = found[-1].snapshot.splitlines(keepends=True) if found else []
+        return [line.replace(f" {own} .\n", f" {other} .\n") for line in lines]
+
+    def _of_override(self, override: Override) -> list[str]:
+        s = self._syntax
+        operator = s.own("operator", override.operator)
+        stated: Properties = [
+            (s.iri(RDF + "type"), [s.iri(SL + "Override"), s.iri(PROV + "Entity")]),
+            (s.iri(SL + "madeBy"), [operator]),
+            (s.iri(PROV + "wasAttributedTo"), [operator]),
+            (s.iri(SL + "overriddenSegment"), [s.own("segment", override.segment)]),
+            (s.iri(PROV + "generatedAtTime"), [s.typed(override.made, XSD + "dateTime")]),
+        ]
+        if override.environment:
+            stated.append((s.iri(SL + "environmentGiven"), [s.iri(override.environment)]))
+        if f"{s.own('classification', override.segment)} " in override.snapshot:
+            replaced = s.own("classification", override.segment)
+            stated.append((s.iri(SL + "replaces"), [replaced]))
+        if override.reason:
+            stated.append((s.iri(RDFS + "comment"), [s.text(override.reason)]))
+        if override.undone:
+            when = s.typed(override.undone, XSD + "dateTime")
+            stated.append((s.iri(PROV + "invalidatedAtTime"), [when]))
+        who: Properties = [
+            (s.iri(RDF + "type"), [s.iri(SL + "Operator"), s.iri(PROV + "Agent")]),
+            (s.iri(RDFS + "label"), [s.text(override.operator)]),
+        ]
+        records = [(s.own("override", override.id), stated), (operator, who)]
+        return self._text(records, "overrides").splitlines(keepends=True)
+
+    def _graph(self, name: str) -> str:
+        return self._syntax.own(name)
+
+    def _text(self, records: Iterable[Record], graph: str) -> str:
+        name = self._graph(graph)
+        return "".join(self._syntax.statements(name, s, p) for s, p in records)
+
+    def _lines(self, records: Iterable[Record], graph: str) -> Lines:
+        return frozenset(self._text(records, graph).splitlines(keepends=True))
