@@ -23,7 +23,7 @@ def serve(data: Path, *options: str) -> Iterator[tuple["subprocess.Popen[str]", 
     """``symboslam serve`` as a process, and a client of it."""
     environment = {
         **os.environ, "SYMBOSLAM_ADMIN_TOKEN": TOKEN, "SYMBOSLAM_BUNDLED_ONTOLOGY": "false",
-        "SYMBOSLAM_WORKERS": "1",
+        "SYMBOSLAM_WORKERS": "1", "SYMBOSLAM_LOG": "none",
     }  # fmt: skip
     command = [sys.executable, "-m", "symboslam", "serve", "--data", str(data), "--port", "0"]
     process = subprocess.Popen(
