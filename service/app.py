@@ -10,6 +10,7 @@ from starlette.middleware.cors import CORSMiddleware
 from starlette.middleware.gzip import GZipMiddleware
 
 from symboslam import __version__
+from symboslam.errors import StoreError
 from symboslam.service import health, metrics, problems, tokens_api
 from symboslam.service.auth import Authenticator, describe_public_reading
 from symboslam.service.lifecycle import Lifecycle
@@ -18,7 +19,7 @@ from symboslam.service.middleware import Accounts, Guard
 from symboslam.service.settings import Settings
 from symboslam.service.sparql import graph_store, protocol
 from symboslam.service.store._base import Store
-from symboslam.service.store.oxigraph import OxigraphStore
+from symboslam.service.store.opening import open_store
 from symboslam.service.store.seed import seed
 from symboslam.service.tokens import Tokens
 
@@ -30,23 +31,30 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
         settings: all that can be set.
         store: a store that is open already; by default the one of the settings is opened when
             the application starts.
+
+    Where the store cannot be started, ``app.state.failure`` holds the error.
     """
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        opened = store or OxigraphStore(settings)
+        opened = store or open_store(settings)
         app.state.store = opened
-        tokens = app.state.tokens = Tokens(settings.data)
-        app.state.authenticator = Authenticator(settings, tokens)
         app.state.metrics.watch(opened)
         try:
-            await opened.start()
-            if settings.bundled_ontology:
-                await seed(opened, settings.data / "ontology.sha256")
+            try:
+                app.state.tokens = Tokens(settings.data)
+                app.state.authenticator = Authenticator(settings, app.state.tokens)
+                await opened.start()
+                if settings.bundled_ontology:
+                    await seed(opened)
+            except StoreError as error:
+                app.state.failure = error
+                raise
             yield
         finally:
             await opened.stop()
-            tokens.close()
+            if tokens := getattr(app.state, "tokens", None):
+                tokens.close()
 
     app = FastAPI(
         title="SymboSLAM",

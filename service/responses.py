@@ -62,19 +62,23 @@ def _malformed(name: str, error: QueryError) -> Problem:
     return Problem(400, name, detail, line=error.line, column=error.column)
 
 
-def etag(version: str, *parts: object) -> str:
+def etag(version: str | None, *parts: object) -> str | None:
     """A weak ETag: results may come in another order.
 
     Args:
-        version: of the store.
+        version: of the store; without one there is no ETag.
         parts: everything else that the response depends on.
     """
+    if version is None:
+        return None
     rest = sha256("\0".join(str(part) for part in parts).encode()).hexdigest()[:16]
     return f'W/"{version}.{rest}"'
 
 
-def not_modified(request: Request, tag: str) -> Response | None:
+def not_modified(request: Request, tag: str | None) -> Response | None:
     """The response 304 where the client has this ETag already."""
+    if tag is None:
+        return None
     have = [part.strip() for part in request.headers.get("if-none-match", "").split(",")]
     if tag in have or "*" in have:
         return Response(status_code=304, headers={"ETag": tag, "Vary": VARY})

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import logging
 import socket
 from collections.abc import Callable
 
@@ -76,8 +77,13 @@ class Server(uvicorn.Server):
         self._lifecycle: Lifecycle = app.state.lifecycle
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-        """Start, and say so."""
-        await super().startup(sockets)
+        """Start, and say so; what keeps it from starting is ``app.state.failure``."""
+        log = logging.getLogger("uvicorn.error")
+        log.disabled = True
+        try:
+            await super().startup(sockets)
+        finally:
+            log.disabled = False
         if self.started and self._tell is not None:
             self._tell()
 

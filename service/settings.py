@@ -14,6 +14,7 @@ from symboslam.service.logs import Form
 
 MIB = 1024 * 1024
 _SHORTEST_TOKEN = 16
+_ENDPOINT = r"^https?://[^\s/?#@]+(/[^\s?#]*)?$"
 
 
 class Settings(BaseSettings):
@@ -21,6 +22,14 @@ class Settings(BaseSettings):
 
     Attributes:
         data: folder of the store; made if it is not there. ``SYMBOSLAM_DATA``, and so on.
+        store: the query endpoint of a SPARQL 1.1 store elsewhere; none: the store is in ``data``.
+        store_update: its endpoint for updates; beside ``.../sparql`` or ``.../query`` by default.
+        store_graphs: its Graph Store endpoint; beside ``.../sparql`` by default, or none.
+        store_union_graphs: what to ask for as default graphs where a query is to see the union of
+            all graphs, separated by commas; none: the store does it by itself.
+        store_user: name for its basic authentication.
+        store_password: the password.
+        store_token: a bearer token in the place of both.
         admin_token: whoever sends it may do everything; 16 characters or more.
         public_read: queries need no token.
         read_only: nobody may write, whatever their token says.
@@ -52,6 +61,13 @@ class Settings(BaseSettings):
     model_config = SettingsConfigDict(env_prefix="SYMBOSLAM_", frozen=True)
 
     data: Path = Path("symboslam-data")
+    store: str | None = Field(None, pattern=_ENDPOINT)
+    store_update: str | None = Field(None, pattern=_ENDPOINT)
+    store_graphs: str | None = Field(None, pattern=_ENDPOINT)
+    store_union_graphs: Annotated[tuple[str, ...], NoDecode] = ()
+    store_user: str | None = None
+    store_password: SecretStr | None = None
+    store_token: SecretStr | None = None
     admin_token: SecretStr | None = None
     public_read: bool = True
     read_only: bool = False
@@ -78,7 +94,7 @@ class Settings(BaseSettings):
     allow_service: bool = False
     allow_load: bool = False
 
-    @field_validator("cors_origins", mode="before")
+    @field_validator("cors_origins", "store_union_graphs", mode="before")
     @classmethod
     def _split(cls, value: Any) -> Any:
         if isinstance(value, str):
@@ -90,6 +106,16 @@ class Settings(BaseSettings):
     def _is_rate(cls, value: str) -> str:
         parse_rates(value)
         return value
+
+    @field_validator("store", "store_update", "store_graphs", "store_user", mode="before")
+    @classmethod
+    def _unless_empty(cls, value: Any) -> Any:
+        return value or None
+
+    @field_validator("store_password", "store_token")
+    @classmethod
+    def _not_empty(cls, value: SecretStr | None) -> SecretStr | None:
+        return value if value and value.get_secret_value() else None
 
     @field_validator("admin_token")
     @classmethod

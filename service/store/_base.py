@@ -133,8 +133,8 @@ class Store(ABC):
 
     @property
     @abstractmethod
-    def version(self) -> str:
-        """Changes with every write; part of every ETag."""
+    def version(self) -> str | None:
+        """Changes with every write, part of every ETag; None: others may write, so no ETag."""
 
     @property
     @abstractmethod
@@ -193,12 +193,16 @@ class Store(ABC):
             added: the same; what is in both stays.
 
         Raises:
+            QueryError: a line is none.
             StoreError: it cannot be written.
         """
 
     @abstractmethod
     async def has_graph(self, graph: str | None) -> bool:
-        """Whether a graph is there; the default graph always is."""
+        """Whether a graph is there; the default graph always is.
+
+        A store need not know graphs without statements.
+        """
 
     @abstractmethod
     async def replace_graph(self, graph: str | None, documents: Sequence[Document]) -> bool:

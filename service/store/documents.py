@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 from xml.parsers import expat
 
@@ -76,6 +77,11 @@ def parse(document: Document) -> list[Triple]:
         return [quad.triple for quad in quads]
     except (SyntaxError, ValueError) as error:
         raise DocumentError(*place_and_problem(error)) from error
+
+
+def parse_all(documents: Iterable[Document]) -> list[Triple]:
+    """The triples of several documents; its errors are those of `parse`."""
+    return [triple for document in documents for triple in parse(document)]
 
 
 def _refuse_traps(data: bytes) -> None:

@@ -25,7 +25,8 @@ from symboslam.service.store._base import (
     ResultLimitError,
     Store,
 )
-from symboslam.service.store.documents import parse, place_and_problem
+from symboslam.service.store.documents import parse_all, place_and_problem
+from symboslam.service.store.patches import patch_update
 from symboslam.service.store.snapshots import Snapshots
 from symboslam.service.workers import Pool
 
@@ -142,15 +143,16 @@ class OxigraphStore(Store):
         """
         await self._ask({"kind": "rehearse", "text": text, "base": base}, False, reads=False)
 
-        def write() -> None:
-            try:
-                self._open.update(text, base_iri=base)
-            except (SyntaxError, ValueError) as error:
-                raise QueryError(*place_and_problem(error)) from error
-            except RuntimeError as error:  # "The graph ... does not exist", and the like
-                raise QueryError(str(error)) from error
+        await self._write(lambda: self._update(text, base))
 
-        await self._write(write)
+    async def patch(self, removed: str, added: str) -> None:
+        """Remove and add statements, as one update, which is one transaction.
+
+        No other way of pyoxigraph is atomic. `Store.remove` and `Store.extend` are not, and take
+        as long: RocksDB's share of 120 ms for 5,000 lines each way is 100.
+        """
+        if removed != added:
+            await self._write(lambda: self._update(patch_update(removed, added), None))
 
     async def has_graph(self, graph: str | None) -> bool:
         """Whether a graph is there."""
@@ -158,7 +160,7 @@ class OxigraphStore(Store):
 
     async def replace_graph(self, graph: str | None, documents: Sequence[Document]) -> bool:
         """Make a graph hold what the documents say."""
-        triples = await asyncio.to_thread(_parse_all, documents)
+        triples = await asyncio.to_thread(parse_all, documents)
 
         def write() -> bool:
             if not self._has(graph):
@@ -170,7 +172,7 @@ class OxigraphStore(Store):
 
     async def add_to_graph(self, graph: str | None, documents: Sequence[Document]) -> bool:
         """Add what the documents say to a graph."""
-        triples = await asyncio.to_thread(_parse_all, documents)
+        triples = await asyncio.to_thread(parse_all, documents)
         return await self._write(lambda: self._insert(graph, triples))
 
     async def drop_graph(self, graph: str | None) -> None:
@@ -212,6 +214,14 @@ class OxigraphStore(Store):
         elif new:
             self._open.add_graph(name)
         return new
+
+    def _update(self, text: str, base: str | None) -> None:
+        try:
+            self._open.update(text, base_iri=base)
+        except (SyntaxError, ValueError) as error:
+            raise QueryError(*place_and_problem(error)) from error
+        except RuntimeError as error:  # "The graph ... does not exist", and the like
+            raise QueryError(str(error)) from error
 
     def _replace(self, graph: str | None, triples: list[Triple]) -> None:
         """Put triples in the place of others, as one update and so all or nothing."""
@@ -279,10 +289,6 @@ def _fail(reply: dict[str, Any], request: dict[str, Any], limit: int) -> NoRetur
     if kind == "failed":
         raise QueryError(f"it cannot be evaluated: {detail}")
     raise StoreError(f"the store cannot be read: {detail}")
-
-
-def _parse_all(documents: Sequence[Document]) -> list[Triple]:
-    return [triple for document in documents for triple in parse(document)]
 
 
 def _name(graph: str | None) -> NamedNode | DefaultGraph:

@@ -3,11 +3,18 @@
 from __future__ import annotations
 
 import asyncio
-from pathlib import Path
+import json
 from typing import TYPE_CHECKING
 
-from symboslam.service.store._base import Document, Store
-from symboslam.service.vocabulary import INFERENCES_GRAPH, ONTOLOGY_GRAPH, PREFIXES, RDFS
+from symboslam.reasoning.vocabulary import OWL_NAMESPACE
+from symboslam.service.store._base import Document, Formats, Query, Store
+from symboslam.service.vocabulary import (
+    INFERENCES_GRAPH,
+    ONTOLOGY_GRAPH,
+    PREFIXES,
+    RDFS,
+    SOLUTIONS,
+)
 
 if TYPE_CHECKING:
     import pyoxigraph
@@ -30,35 +37,38 @@ SELECT ?class ?environment WHERE {
 }"""
 """The class of the features that indicate an environment."""
 
+_MARK = f'<{INFERENCES_GRAPH}> <{OWL_NAMESPACE}versionInfo> "sha256 {{}}" .'
 
-async def seed(store: Store, marker: Path) -> bool:
+
+async def seed(store: Store) -> bool:
     """Put the bundled ontology into a store unless it is there; whether that was needed.
 
-    Args:
-        store: the store.
-        marker: a file that says which version is there. It is written last, so that a start
-            that was cut short is made good by the next one.
+    A statement in the second graph says which version it is. It is written last, with that graph,
+    so that a start that was cut short is made good by the next one.
     """
     from symboslam.reasoning.sources import closure_hash
 
-    digest = await asyncio.to_thread(closure_hash)
-    if marker.is_file() and marker.read_text().strip() == digest and await _is_there(store):
+    mark = _MARK.format(await asyncio.to_thread(closure_hash))
+    if await store.has_graph(ONTOLOGY_GRAPH) and await _holds(store, mark):
         return False
-    asserted, inferred = await asyncio.to_thread(_documents)
+    asserted, inferred = await asyncio.to_thread(_documents, mark)
     await store.replace_graph(ONTOLOGY_GRAPH, asserted)
     await store.replace_graph(INFERENCES_GRAPH, [inferred])
-    temporary = marker.with_suffix(".part")
-    temporary.write_text(digest + "\n")
-    temporary.replace(marker)
     return True
 
 
-async def _is_there(store: Store) -> bool:
-    return await store.has_graph(ONTOLOGY_GRAPH) and await store.has_graph(INFERENCES_GRAPH)
+async def _holds(store: Store, mark: str) -> bool:
+    formats = Formats(next(iter(SOLUTIONS)), next(iter(SOLUTIONS)), None)
+    text = f"ASK {{ GRAPH <{INFERENCES_GRAPH}> {{ {mark} }} }}"
+    answer = await store.query(Query(text, INFERENCES_GRAPH, formats))
+    if isinstance(answer.body, bytes):
+        return json.loads(answer.body).get("boolean") is True
+    with answer.body as file:
+        return json.load(file).get("boolean") is True
 
 
-def _documents() -> tuple[list[Document], Document]:
-    """The modules of the bundled ontology, and the graph of what follows."""
+def _documents(mark: str) -> tuple[list[Document], Document]:
+    """The modules of the bundled ontology, and the graph of what follows, with a mark in it."""
     import pyoxigraph
 
     from symboslam.reasoning.sources import closure_files
@@ -81,6 +91,7 @@ def _documents() -> tuple[list[Document], Document]:
     inferred = {*found, *follows} - known
     data = pyoxigraph.serialize(inferred, format=pyoxigraph.RdfFormat.N_TRIPLES)
     assert data is not None
+    data += f"{mark}\n".encode()
     return asserted, Document("application/n-triples", data, INFERENCES_GRAPH)
 
 

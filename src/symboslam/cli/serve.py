@@ -111,28 +111,27 @@ def _run(settings: Settings, listening: socket.socket, open_: bool) -> None:
     from symboslam.service import logs
     from symboslam.service.app import create_app
     from symboslam.service.server import Server
-    from symboslam.service.store.oxigraph import OxigraphStore
+    from symboslam.service.store.opening import open_store
 
     host, port = listening.getsockname()[:2]
     shown = f"[{host}]" if ":" in host else host
     address = settings.public_url or f"http://{shown}:{port}"
     logs.install(settings.log, settings.log_level)
-    store = OxigraphStore(settings)
-    app = create_app(settings, store)
+    app = create_app(settings, open_store(settings))
     server = Server(app, settings, lambda: _tell(settings, address, open_))
     # uvicorn hands the signal that stopped it on to these; a stop that was asked for is no failure.
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: None)
     server.run([listening])
     if not server.started:
-        raise RuntimeError("the service did not start")
+        raise getattr(app.state, "failure", None) or RuntimeError("the service did not start")
     print("stopped")
 
 
 def _tell(settings: Settings, address: str, open_: bool) -> None:
     import webbrowser
 
-    print(f"SymboSLAM serves {settings.data}")
+    print(f"SymboSLAM serves {settings.store or settings.data}")
     print(f"  SPARQL   {address}/sparql")
     print(f"  graphs   {address}/graphs")
     if settings.read_only:
