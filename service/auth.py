@@ -125,7 +125,9 @@ def declare(*scopes: str) -> Any:
 
 
 def _require(needed: str) -> Callable[..., Awaitable[Identity]]:
-    async def identity(request: Request, _: Annotated[Any, declare(needed)]) -> Identity:
+    declaration = declare(needed)
+
+    async def identity(request: Request, _: Any = declaration) -> Identity:
         return authorize(request, needed)
 
     return identity
