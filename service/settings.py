@@ -107,7 +107,7 @@ class Settings(BaseSettings):
         parse_rates(value)
         return value
 
-    @field_validator("store", "store_update", "store_graphs", "store_user", mode="before")
+    @field_validator("store", "store_update", "store_graphs", "store_user", "log", mode="before")
     @classmethod
     def _unless_empty(cls, value: Any) -> Any:
         return value or None
