@@ -120,7 +120,7 @@ class Tokens:
     def all(self) -> list[Token]:
         """All tokens, the oldest first; expired ones too."""
         with _database_errors():
-            rows = self._reading.execute(f"SELECT {_COLUMNS} FROM tokens ORDER BY created, id")
+            rows = self._reading.execute(f"SELECT {_COLUMNS} FROM tokens ORDER BY rowid")
             return [_token(row) for row in rows]
 
     def remove(self, identifier: str) -> bool:
