@@ -1,4 +1,8 @@
-"""How often and how much at a time one client may ask; all of it in memory, and bounded."""
+"""How often and how much at a time one client may ask; all of it in memory, and bounded.
+
+Our own, since the library ``limits`` has no token bucket and keeps every client that it ever saw
+until its window ends.
+"""
 
 from __future__ import annotations
 

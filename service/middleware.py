@@ -15,12 +15,13 @@ from uuid import uuid4
 from starlette.datastructures import Headers, MutableHeaders, State
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from symboslam.errors import StoreError
 from symboslam.service.auth import Authenticator, Identity
 from symboslam.service.lifecycle import Lifecycle
 from symboslam.service.limits import Limits, client_of
 from symboslam.service.logs import REQUEST_ID
 from symboslam.service.metrics import Metrics
-from symboslam.service.problems import Problem
+from symboslam.service.problems import Problem, store_unavailable
 from symboslam.service.requests import body_too_large
 from symboslam.service.settings import Settings
 
@@ -128,6 +129,8 @@ class Guard:
                 await send({"type": "http.response.body", "body": b"", "more_body": False})
             else:
                 await _stopped().response()(scope, receive, send)
+        except StoreError as error:  # of the tokens; what handlers raise is a response by now
+            await store_unavailable(error).response()(scope, receive, send)
         except Exception:
             if started:
                 raise  # uvicorn cuts the response off, and logs this

@@ -57,6 +57,11 @@ class Problem(Exception):
         return JSONResponse(content, self.status, self.headers, PROBLEM_JSON)
 
 
+def store_unavailable(error: Exception) -> Problem:
+    """A store or database that cannot be read or written."""
+    return Problem(503, "store-unavailable", str(error), headers={"Retry-After": "10"})
+
+
 def install(app: FastAPI) -> None:
     """Let the app answer every error with a problem."""
 
@@ -85,8 +90,7 @@ def install(app: FastAPI) -> None:
         return Problem(422, "invalid-parameter", f"{where}: {first['msg']}").response()
 
     async def on_store(_: Request, error: Exception) -> JSONResponse:
-        headers = {"Retry-After": "10"}
-        return Problem(503, "store-unavailable", str(error), headers=headers).response()
+        return store_unavailable(error).response()
 
     async def on_disconnect(_: Request, error: Exception) -> JSONResponse:
         return Problem(499, "client-closed-request", "the client is gone").response()

@@ -305,3 +305,12 @@ def test_the_token_of_the_environment_may_do_everything(service: Service) -> Non
     assert TOKEN in ADMIN["Authorization"]
     for does, _ in DOES:
         assert does(service, ADMIN).is_success
+
+
+def test_tokens_that_cannot_be_read(make_service: MakeService, tmp_path: Path) -> None:
+    service = make_service()
+    token = make(service, "query")["token"]
+    with closing(sqlite3.connect(tmp_path / "data" / NAME)) as database:
+        database.execute("DROP TABLE tokens")
+    problem(can_query(service, bearer(token)), 503, "store-unavailable")
+    assert can_query(service, {}).status_code == 200

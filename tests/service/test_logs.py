@@ -4,6 +4,7 @@ import io
 import json
 import logging
 import signal
+import socket
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -116,6 +117,16 @@ def test_a_defect_is_logged_and_not_told(make_service: MakeService, lines: Lines
     assert request["status"] == 500
 
 
+def test_a_client_that_leaves_is_no_defect(make_service: MakeService, lines: Lines) -> None:
+    service = make_service()
+    port = service.client.base_url.port or 0
+    with socket.create_connection(("127.0.0.1", port)) as connection:
+        head = b"POST /sparql HTTP/1.1\r\nHost: x\r\nContent-Type: application/sparql-query\r\n"
+        connection.sendall(head + b"Content-Length: 9\r\n\r\nASK")
+    (line,) = wait_for(lines, 1)
+    assert (line["status"], line["message"]) == (499, "request")
+
+
 def record(**fields: object) -> logging.LogRecord:
     made = logging.LogRecord("a.b", logging.WARNING, "", 0, "said %s", ("so",), None)
     made.created = 0.25
@@ -138,8 +149,6 @@ def test_the_log_of_a_server(tmp_path: Path, form: str) -> None:
     with serve(tmp_path, log=form) as (process, client):
         client.get("/healthz", headers={"X-Request-ID": "mine"})
         # uvicorn's own: what is not HTTP.
-        import socket
-
         with socket.create_connection((client.base_url.host, client.base_url.port or 0)) as raw:
             raw.sendall(b"nonsense\r\n\r\n")
             assert raw.recv(1000).startswith(b"HTTP/1.1 400")
