@@ -17,11 +17,13 @@ import httpx
 from symboslam.errors import StoreError
 from symboslam.service.store._base import (
     Answer,
+    Formats,
     NotAcceptableError,
     QueryError,
     ResultLimitError,
     TimeLimitError,
 )
+from symboslam.service.vocabulary import SOLUTIONS, TRIPLES
 
 if TYPE_CHECKING:
     from symboslam.service.settings import Settings
@@ -31,7 +33,7 @@ _PROBE_SECONDS = 5.0
 _INLINE = 256 * 1024  # larger results go through a file
 _MOST_OF_A_PROBLEM = 4096  # bytes
 _LONGEST = 300
-_PLACE = re.compile(r"(?:\s+at)?\s*\bline (\d+),? col(?:umn)?:? ?(\d+)[.:,]?\s*", re.IGNORECASE)
+_PLACE = re.compile(r"(?: at)? ?\bline (\d+),? col(?:umn)?:? ?(\d+)[.:,]? ?", re.IGNORECASE)
 _GONE = (HTTPStatus.BAD_GATEWAY, HTTPStatus.SERVICE_UNAVAILABLE, HTTPStatus.GATEWAY_TIMEOUT)
 
 
@@ -98,8 +100,9 @@ class Endpoint:
             raise TimeLimitError("too slow: the store did not answer in time") from error
         except (httpx.HTTPError, httpx.InvalidURL) as error:
             self._lost()
-            problem = str(error) or type(error).__name__
-            raise StoreError(f"the store cannot be reached: {problem}") from error
+            connecting = isinstance(error, httpx.ConnectError | httpx.ConnectTimeout)
+            what = "the store cannot be reached" if connecting else "the store's answer broke off"
+            raise StoreError(f"{what}: {str(error) or type(error).__name__}") from error
 
     async def _failure(self, response: httpx.Response) -> StoreError:
         """What a response that is no success means."""
@@ -129,11 +132,13 @@ class Endpoint:
             self._probing = asyncio.create_task(self._probe())
 
     async def _probe(self) -> None:
-        while not self._reached:
-            await asyncio.sleep(_PROBE_SECONDS)
+        while True:
             with contextlib.suppress(httpx.HTTPError):
                 response = await self._client.get(self._url, params={"query": "ASK {}"})
                 self._reached = response.status_code not in _GONE
+            if self._reached:
+                return
+            await asyncio.sleep(_PROBE_SECONDS)
 
 
 async def keep(
@@ -174,6 +179,33 @@ async def keep(
         return Answer(media_type, size, kept.read(), compress)
 
 
+def canonical(media_type: str, table: dict[str, str]) -> str:
+    """The first media type of a format.
+
+    >>> canonical("application/json", TRIPLES)
+    'application/ld+json'
+    """
+    return next(name for name, value in table.items() if value == table[media_type])
+
+
+def chosen(response: httpx.Response, formats: Formats) -> str:
+    """Under which of the accepted names a result goes.
+
+    Raises:
+        NotAcceptableError: there is none for its kind.
+        StoreError: it is no result of SPARQL.
+    """
+    received = response.headers.get("content-type", "").partition(";")[0].strip().lower()
+    solutions, boolean, triples = formats
+    for wanted, table in ((solutions, SOLUTIONS), (boolean, SOLUTIONS), (triples, TRIPLES)):
+        if wanted is not None and received == canonical(wanted, table):
+            return wanted
+    if received in SOLUTIONS or received in TRIPLES:
+        kind = "a table, or true or false" if received in SOLUTIONS else "a graph"
+        raise NotAcceptableError(f"the result is {kind}, for which no format is accepted")
+    raise StoreError(f"it is no SPARQL endpoint: it answers {received or 'without a media type'}")
+
+
 def problem_and_place(text: str) -> tuple[str, int | None, int | None]:
     """Problem, line and column in what a store says of a malformed query.
 
@@ -181,11 +213,10 @@ def problem_and_place(text: str) -> tuple[str, int | None, int | None]:
     ('Encountered "<EOF>"', 3, 9)
     """
     line = column = None
-    text = text.partition("Was expecting")[0].removeprefix("Parse error:")
+    text = " ".join(text.partition("Was expecting")[0].removeprefix("Parse error:").split())
     if found := _PLACE.search(text):
         line, column = int(found[1]), int(found[2])
-        text = f"{text[: found.start()]} {text[found.end() :]}"
-    text = " ".join(text.split())
+        text = f"{text[: found.start()]} {text[found.end() :]}".strip()
     if len(text) > _LONGEST:
         text = text[:_LONGEST].rsplit(" ", 1)[0] + " ..."
     return text or "the store finds it malformed", line, column

@@ -15,14 +15,13 @@ from symboslam.service.store._base import (
     Document,
     Formats,
     MissingGraphError,
-    NotAcceptableError,
     Query,
     QueryError,
     Store,
     TimeLimitError,
 )
 from symboslam.service.store.documents import parse_all
-from symboslam.service.store.endpoint import Endpoint, keep
+from symboslam.service.store.endpoint import Endpoint, canonical, chosen, keep
 from symboslam.service.store.patches import patch_update
 from symboslam.service.vocabulary import SOLUTIONS, SPARQL_UPDATE, TRIPLES
 
@@ -97,21 +96,21 @@ class RemoteStore(Store):
         form = [("query", _with_base(query.text, query.base)), *await self._dataset(query)]
         with _counted_from_base():
             async with self._asked(query.formats, form) as response:
-                media_type = _chosen(response, query.formats)
+                media_type = chosen(response, query.formats)
                 return await self._keep(response, media_type, query.gzip)
 
     async def read_graph(self, graph: str | None, media_type: str, gzip: bool) -> Answer:
         """A whole graph; see `Store`."""
         if not await self.has_graph(graph):
             raise MissingGraphError(f"there is no graph <{graph}>")
-        accept = _canonical(media_type, TRIPLES)
+        accept = canonical(media_type, TRIPLES)
         if self._graphs_url is None or TRIPLES[media_type] in _DATASETS:  # not for one graph
             text = f"CONSTRUCT {{ ?s ?p ?o }} WHERE {{ {_pattern(graph)} }}"
             asked = self._asked(Formats(None, None, accept), [("query", text)])
         else:
             asked = self._slot("GET", self._graphs_url, params=_named(graph), accept=accept)
         async with asked as response:
-            _chosen(response, Formats(None, None, accept))
+            chosen(response, Formats(None, None, accept))
             return await self._keep(response, media_type, gzip)
 
     async def update(self, text: str, base: str) -> None:
@@ -179,9 +178,9 @@ class RemoteStore(Store):
     ) -> AsyncIterator[httpx.Response]:
         """The response to a query, sent as a form, which has room for many graphs."""
         solutions, boolean, triples = formats
-        accepted = {_canonical(kind, SOLUTIONS) for kind in (solutions, boolean) if kind}
+        accepted = {canonical(kind, SOLUTIONS) for kind in (solutions, boolean) if kind}
         if triples:
-            accepted.add(_canonical(triples, TRIPLES))
+            accepted.add(canonical(triples, TRIPLES))
         data: dict[str, list[str]] = {}
         for name, value in form:
             data.setdefault(name, []).append(value)
@@ -225,7 +224,7 @@ class RemoteStore(Store):
     async def _json(self, text: str) -> Any:
         """The result of a query of our own."""
         async with self._asked(Formats(_JSON, _JSON, None), [("query", text)]) as response:
-            _chosen(response, Formats(_JSON, _JSON, None))
+            chosen(response, Formats(_JSON, _JSON, None))
             try:
                 return json.loads(await response.aread())
             except ValueError as error:
@@ -282,33 +281,6 @@ def _beside(url: str, name: str) -> str | None:
         if url.endswith(ending):
             return f"{url.removesuffix(ending)}/{name}"
     return None
-
-
-def _canonical(media_type: str, table: dict[str, str]) -> str:
-    """The first media type of a format.
-
-    >>> _canonical("application/json", TRIPLES)
-    'application/ld+json'
-    """
-    return next(name for name, value in table.items() if value == table[media_type])
-
-
-def _chosen(response: httpx.Response, formats: Formats) -> str:
-    """Under which of the accepted names a result goes.
-
-    Raises:
-        NotAcceptableError: there is none for its kind.
-        StoreError: it is no result of SPARQL.
-    """
-    received = response.headers.get("content-type", "").partition(";")[0].strip().lower()
-    solutions, boolean, triples = formats
-    for wanted, table in ((solutions, SOLUTIONS), (boolean, SOLUTIONS), (triples, TRIPLES)):
-        if wanted is not None and received == _canonical(wanted, table):
-            return wanted
-    if received in SOLUTIONS or received in TRIPLES:
-        kind = "a table, or true or false" if received in SOLUTIONS else "a graph"
-        raise NotAcceptableError(f"the result is {kind}, for which no format is accepted")
-    raise StoreError(f"it is no SPARQL endpoint: it answers {received or 'without a media type'}")
 
 
 def _with_base(text: str, base: str) -> str:

@@ -20,6 +20,7 @@ import httpx
 from symboslam.service.app import create_app
 from symboslam.service.server import Server
 from symboslam.service.settings import Settings
+from tests.service.fuseki import fuseki
 
 if TYPE_CHECKING:
     from fastapi import FastAPI
@@ -115,6 +116,13 @@ def service(shared_service: Service) -> Service:
     """The shared service, emptied."""
     shared_service.update("DROP ALL").raise_for_status()
     return shared_service
+
+
+@pytest.fixture(scope="session")
+def fuseki_url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """A store elsewhere, for tests that empty it first; skips where there is none."""
+    with fuseki(tmp_path_factory.mktemp("fuseki")) as url:
+        yield url
 
 
 @pytest.fixture(scope="session")

@@ -142,10 +142,6 @@ def test_the_ontology_is_put_there_once(tmp_path: Path) -> None:
             return int(service.app.state.store.version.partition(".")[2])
 
     assert [writes(), writes()] == [2, 0]
-    (tmp_path / "ontology.sha256").write_text("that of another version\n")
-    assert [writes(), writes()] == [2, 0]
-    (tmp_path / "ontology.sha256").unlink()
-    assert writes() == 2
 
 
 def test_small_packets_are_sent_at_once() -> None:

@@ -63,6 +63,14 @@ def test_doubtful_quotes_are_refused() -> None:
     assert asks_for('SELECT * { ?s ?p "SERVICE }', "SERVICE")
 
 
+def test_code_points_are_read_as_other_stores_than_oxigraph_do() -> None:
+    assert asks_for(r"ASK { \u0053ERV\U00000049CE <http://example.org/> {} }", "SERVICE")
+    assert asks_for(r'ASK { ?s ?p "\u0022 . SERVICE <urn:x> {} # " }', "SERVICE")
+    assert asks_for(r"ASK { \u005Cu0053ERVICE <http://example.org/> {} }", "SERVICE")
+    assert not asks_for(r"ASK { ?s ?p '\u0053ERVICE \u00e4' }", "SERVICE")
+    assert asks_for(r"\u004COAD <http://example.org/>", "LOAD")
+
+
 def test_load_is_seen() -> None:
     assert asks_for("LOAD <http://example.org/>", "LOAD")
     assert asks_for("CLEAR ALL;load silent <file:///etc/passwd>", "LOAD")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import socket
 import sys
-from contextlib import closing
+from contextlib import closing, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -49,7 +49,8 @@ def serve(
     [bold]symboslam token add[/]. Where there is no administrator's token yet, one is made and
     shown, if standard output is a terminal. All settings are in docs/service.md.
 
-    Exit code 0: stopped; 2: the address or the folder is in use, or a setting is wrong.
+    Exit code 0: stopped; 2: the address or the folder is in use, a setting is wrong, or the store
+    cannot be reached.
     """
     try:
         import fastapi  # noqa: F401
@@ -122,7 +123,8 @@ def _run(settings: Settings, listening: socket.socket, open_: bool) -> None:
     # uvicorn hands the signal that stopped it on to these; a stop that was asked for is no failure.
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: None)
-    server.run([listening])
+    with suppress(SystemExit):  # uvicorn exits if it does not start
+        server.run([listening])
     if not server.started:
         raise getattr(app.state, "failure", None) or RuntimeError("the service did not start")
     print("stopped")
