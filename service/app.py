@@ -11,12 +11,17 @@ from starlette.middleware.gzip import GZipMiddleware
 
 from symboslam import __version__
 from symboslam.errors import StoreError
-from symboslam.service import health, problems
+from symboslam.service import health, metrics, problems, tokens_api
+from symboslam.service.auth import Authenticator, describe_public_reading
+from symboslam.service.lifecycle import Lifecycle
+from symboslam.service.limits import Limits, parse_rates
+from symboslam.service.middleware import Accounts, Guard
 from symboslam.service.settings import Settings
 from symboslam.service.sparql import graph_store, protocol
 from symboslam.service.store._base import Store
 from symboslam.service.store.opening import open_store
 from symboslam.service.store.seed import seed
+from symboslam.service.tokens import Tokens
 
 
 def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
@@ -34,8 +39,11 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         opened = store or open_store(settings)
         app.state.store = opened
+        app.state.metrics.watch(opened)
         try:
             try:
+                app.state.tokens = Tokens(settings.data)
+                app.state.authenticator = Authenticator(settings, app.state.tokens)
                 await opened.start()
                 if settings.bundled_ontology:
                     await seed(opened)
@@ -45,6 +53,8 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
             yield
         finally:
             await opened.stop()
+            if tokens := getattr(app.state, "tokens", None):
+                tokens.close()
 
     app = FastAPI(
         title="SymboSLAM",
@@ -56,16 +66,42 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
         redoc_url=None,
     )
     app.state.settings = settings
+    app.state.lifecycle = Lifecycle()
+    app.state.limits = _limits(settings)
+    app.state.metrics = metrics.Metrics()
     problems.install(app)
+    if settings.public_read:
+        describe_public_reading(app)
+    # What is added later is further out. Gzip leaves event streams alone.
     app.add_middleware(GZipMiddleware, minimum_size=1000, compresslevel=5)
+    app.add_middleware(
+        Guard, settings=settings, limits=app.state.limits, lifecycle=app.state.lifecycle,
+        state=app.state,
+    )  # fmt: skip
     if settings.cors_origins:
         app.add_middleware(
             CORSMiddleware,
             allow_origins=list(settings.cors_origins),
             allow_methods=["GET", "HEAD", "POST", "PUT", "DELETE"],
-            allow_headers=["Authorization", "Content-Type", "If-None-Match"],
-            expose_headers=["ETag", "Location", "Retry-After"],
-        )
-    for router in (health.router, protocol.router, graph_store.router):
+            allow_headers=[
+                "Authorization", "Content-Type", "If-None-Match", "Last-Event-ID", "X-Request-ID",
+            ],
+            expose_headers=[
+                "ETag", "Location", "RateLimit", "RateLimit-Policy", "Retry-After",
+                "WWW-Authenticate", "X-Request-ID",
+            ],
+        )  # fmt: skip
+    app.add_middleware(Accounts, metrics=app.state.metrics)
+    for router in (
+        health.router, metrics.router, tokens_api.router, protocol.router, graph_store.router,
+    ):  # fmt: skip
         app.include_router(router)
     return app
+
+
+def _limits(settings: Settings) -> Limits:
+    queries = settings.client_queries
+    if queries is None and settings.workers > 1:
+        queries = settings.workers - 1
+    rates = parse_rates(settings.rate)
+    return Limits(rates, settings.client_requests, queries, settings.queue_seconds)

@@ -6,6 +6,7 @@ from fastapi import APIRouter, Response
 from fastapi.responses import HTMLResponse, JSONResponse
 
 from symboslam.service.dependencies import CurrentStore
+from symboslam.service.lifecycle import CurrentLifecycle
 from symboslam.service.problems import Problem
 
 router = APIRouter(tags=["Health"])
@@ -36,8 +37,10 @@ async def healthz() -> JSONResponse:
 
 
 @router.get("/readyz", summary="Ready for queries?")
-async def readyz(store: CurrentStore) -> Response:
-    """Queries can be answered."""
+async def readyz(store: CurrentStore, lifecycle: CurrentLifecycle) -> Response:
+    """Queries can be answered, and the service does not stop soon."""
+    if lifecycle.draining:
+        raise Problem(503, "stopping", "the service stops", headers={"Retry-After": "10"})
     if not store.ready:
         raise Problem(503, "not-ready", "no query can be answered", headers={"Retry-After": "1"})
     return JSONResponse({"status": "ready"})

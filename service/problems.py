@@ -10,9 +10,11 @@ from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 from starlette.exceptions import HTTPException
+from starlette.requests import ClientDisconnect
 from starlette.routing import Match
 
 from symboslam.errors import StoreError
+from symboslam.service.logs import REQUEST_ID
 from symboslam.service.vocabulary import PROBLEM_JSON, PROBLEMS
 
 _METHODS = ("GET", "HEAD", "POST", "PUT", "PATCH", "DELETE")
@@ -44,14 +46,20 @@ class Problem(Exception):
 
     def response(self) -> JSONResponse:
         """The problem as a response."""
+        members = {"request_id": REQUEST_ID.get(), **self.members}
         content = {
             "type": PROBLEMS + self.name,
             "title": self.name.replace("-", " ").capitalize(),
             "status": self.status,
             "detail": self.detail,
-            **{name: value for name, value in self.members.items() if value is not None},
+            **{name: value for name, value in members.items() if value is not None},
         }
         return JSONResponse(content, self.status, self.headers, PROBLEM_JSON)
+
+
+def store_unavailable(error: Exception) -> Problem:
+    """A store or database that cannot be read or written."""
+    return Problem(503, "store-unavailable", str(error), headers={"Retry-After": "10"})
 
 
 def install(app: FastAPI) -> None:
@@ -63,6 +71,8 @@ def install(app: FastAPI) -> None:
 
     async def on_http(request: Request, error: Exception) -> JSONResponse:
         assert isinstance(error, HTTPException)
+        if isinstance(error.__cause__, Problem):  # raised while the framework read the body
+            return error.__cause__.response()
         headers = dict(error.headers or {})
         detail = str(error.detail)
         if error.status_code == HTTPStatus.METHOD_NOT_ALLOWED:
@@ -80,8 +90,10 @@ def install(app: FastAPI) -> None:
         return Problem(422, "invalid-parameter", f"{where}: {first['msg']}").response()
 
     async def on_store(_: Request, error: Exception) -> JSONResponse:
-        headers = {"Retry-After": "10"}
-        return Problem(503, "store-unavailable", str(error), headers=headers).response()
+        return store_unavailable(error).response()
+
+    async def on_disconnect(_: Request, error: Exception) -> JSONResponse:
+        return Problem(499, "client-closed-request", "the client is gone").response()
 
     async def on_defect(_: Request, error: Exception) -> JSONResponse:
         detail = "the service has a defect; its log says more"
@@ -91,6 +103,7 @@ def install(app: FastAPI) -> None:
     app.add_exception_handler(HTTPException, on_http)
     app.add_exception_handler(RequestValidationError, on_validation)
     app.add_exception_handler(StoreError, on_store)
+    app.add_exception_handler(ClientDisconnect, on_disconnect)
     app.add_exception_handler(Exception, on_defect)
 
 

@@ -120,16 +120,17 @@ async def read_body(request: Request, limit: int) -> bytes:
         raise Problem(415, "content-encoding", detail, headers={"Accept-Encoding": "identity"})
     length = request.headers.get("content-length", "")
     if length.isdigit() and int(length) > limit:
-        raise _too_large(limit)
+        raise body_too_large(limit)
     body = bytearray()
     async for chunk in request.stream():
         body += chunk
         if len(body) > limit:
-            raise _too_large(limit)
+            raise body_too_large(limit)
     return bytes(body)
 
 
-def _too_large(limit: int) -> Problem:
+def body_too_large(limit: int) -> Problem:
+    """What a body over a limit gets."""
     detail = f"the body is larger than {limit} bytes"
     return Problem(413, "body-too-large", detail, headers={"Connection": "close"}, limit=limit)
 

@@ -119,6 +119,7 @@ async def unless_disconnected(request: Request, work: Awaitable[T]) -> T:
         await asyncio.wait({task, gone}, return_when=asyncio.FIRST_COMPLETED)
         if task.done():
             return task.result()
+        gone.result()  # raises where it was a body that is too slow, not the client's end
         raise Problem(499, "client-closed-request", "the client is gone")
     finally:
         for each in (task, gone):

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, SecretStr, field_validator
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
+from symboslam.service.limits import parse_rates
+from symboslam.service.logs import Form
+
 MIB = 1024 * 1024
+_SHORTEST_TOKEN = 16
 _ENDPOINT = r"^https?://[^\s/?#@]+(/[^\s?#]*)?$"
 
 
@@ -26,7 +30,18 @@ class Settings(BaseSettings):
         store_user: name for its basic authentication.
         store_password: the password.
         store_token: a bearer token in the place of both.
-        admin_token: whoever sends it may write; without one nobody may.
+        admin_token: whoever sends it may do everything; 16 characters or more.
+        public_read: queries need no token.
+        read_only: nobody may write, whatever their token says.
+        rate: requests of one client, such as ``600/minute`` or ``query=600/minute``; see `limits`.
+        client_requests: requests of one client at a time.
+        client_queries: queries and updates of one client at a time; by default one worker fewer
+            than there are, so that others have one.
+        body_seconds: how long the body of a request may take to arrive.
+        drain_seconds: how long a service that stops goes on, saying that it is not ready.
+        stop_seconds: how long it then waits for requests that run.
+        log: ``json``, ``text`` or ``none``; by default text on a terminal, else JSON.
+        log_level: the least that is logged.
         public_url: the address that clients see, where that is not the one that reaches us.
         union_default_graph: queries without a dataset of their own see the union of all graphs.
         bundled_ontology: keep the bundled ontology in the store.
@@ -54,6 +69,16 @@ class Settings(BaseSettings):
     store_password: SecretStr | None = None
     store_token: SecretStr | None = None
     admin_token: SecretStr | None = None
+    public_read: bool = True
+    read_only: bool = False
+    rate: str = ""
+    client_requests: int = Field(64, ge=1)
+    client_queries: int | None = Field(None, ge=1)
+    body_seconds: float = Field(60.0, gt=0)
+    drain_seconds: float = Field(0.0, ge=0)
+    stop_seconds: int = Field(10, ge=0)
+    log: Form | None = None
+    log_level: Literal["debug", "info", "warning", "error"] = "info"
     public_url: str | None = Field(None, pattern=r"^https?://[^\s?#]+$")
     union_default_graph: bool = True
     bundled_ontology: bool = True
@@ -76,12 +101,26 @@ class Settings(BaseSettings):
             return tuple(part.strip() for part in value.split(",") if part.strip())
         return value
 
-    @field_validator("store", "store_update", "store_graphs", "store_user", mode="before")
+    @field_validator("rate")
+    @classmethod
+    def _is_rate(cls, value: str) -> str:
+        parse_rates(value)
+        return value
+
+    @field_validator("store", "store_update", "store_graphs", "store_user", "log", mode="before")
     @classmethod
     def _unless_empty(cls, value: Any) -> Any:
         return value or None
 
-    @field_validator("admin_token", "store_password", "store_token")
+    @field_validator("store_password", "store_token")
     @classmethod
     def _not_empty(cls, value: SecretStr | None) -> SecretStr | None:
         return value if value and value.get_secret_value() else None
+
+    @field_validator("admin_token")
+    @classmethod
+    def _hard_to_guess(cls, value: SecretStr | None) -> SecretStr | None:
+        length = len(value.get_secret_value()) if value else 0
+        if 0 < length < _SHORTEST_TOKEN:
+            raise ValueError(f"too easy to guess: give it {_SHORTEST_TOKEN} characters or more")
+        return value if length else None

@@ -101,6 +101,11 @@ class Pool:
         memory: bytes that each may take; 0: no limit.
         queue_length: requests that may wait.
         queue_seconds: how long they may.
+
+    Attributes:
+        waiting: requests that wait.
+        timeouts: requests that were stopped at their time limit.
+        killed: workers that were killed, or ended by themselves.
     """
 
     def __init__(
@@ -112,14 +117,14 @@ class Pool:
         self._idle: asyncio.Queue[Worker] = asyncio.Queue()
         self._all: set[Worker] = set()
         self._replacing: set[asyncio.Task[None]] = set()
-        self._waiting = 0
+        self.waiting = self.timeouts = self.killed = 0
         self._started = 0
         self._stopping = False
 
     @property
     def alive(self) -> int:
         """Workers that run."""
-        return len(self._all)
+        return sum(worker.process.returncode is None for worker in self._all)
 
     @property
     def busy(self) -> int:
@@ -180,6 +185,7 @@ class Pool:
             async with asyncio.timeout(seconds):
                 reply = await worker.ask({**request, "seconds": seconds})
         except TimeoutError as error:
+            self.timeouts += 1
             self._replace(worker)
             raise TimeLimitError(f"stopped after {seconds:g} s") from error
         except BaseException:  # it crashed, or whoever asked is gone: it may be in anything
@@ -191,16 +197,16 @@ class Pool:
     async def _get(self) -> Worker:
         with contextlib.suppress(asyncio.QueueEmpty):
             return self._idle.get_nowait()
-        if self._waiting >= self._queue_length:
-            raise BusyError(f"{self._waiting} queries are waiting already")
-        self._waiting += 1
+        if self.waiting >= self._queue_length:
+            raise BusyError(f"{self.waiting} queries are waiting already")
+        self.waiting += 1
         try:
             async with asyncio.timeout(self._queue_seconds):
                 return await self._idle.get()
         except TimeoutError as error:
             raise BusyError(f"no worker came free in {self._queue_seconds:g} s") from error
         finally:
-            self._waiting -= 1
+            self.waiting -= 1
 
     async def _add(self) -> None:
         self._started += 1
@@ -216,6 +222,7 @@ class Pool:
             if not self._stopping:
                 await self._add()
 
+        self.killed += 1
         task = asyncio.create_task(replace())
         self._replacing.add(task)
         task.add_done_callback(self._replacing.discard)

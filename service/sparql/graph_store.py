@@ -13,8 +13,9 @@ from uuid import uuid4
 
 from fastapi import APIRouter, Request, Response
 
-from symboslam.service.auth import AdminOnly
+from symboslam.service.auth import CanQuery, CanUpdate
 from symboslam.service.dependencies import CurrentSettings, CurrentStore
+from symboslam.service.limits import turn
 from symboslam.service.problems import Problem
 from symboslam.service.requests import (
     absolute_iri,
@@ -45,7 +46,9 @@ _CONFLICT = {"graph", "default"}
 @router.get(_BELOW, include_in_schema=False)
 @router.head(PATH, include_in_schema=False)
 @router.head(_BELOW, include_in_schema=False)
-async def get_graph(request: Request, settings: CurrentSettings, store: CurrentStore) -> Response:
+async def get_graph(
+    request: Request, settings: CurrentSettings, store: CurrentStore, _: CanQuery
+) -> Response:
     """A whole graph."""
     graph = _target(request, settings)
     kind = choose(request.headers.get("accept"), TRIPLES)
@@ -57,14 +60,15 @@ async def get_graph(request: Request, settings: CurrentSettings, store: CurrentS
     with problems_of_the_store():
         if await store.has_graph(graph) and (same := not_modified(request, tag)):
             return same
-        answer = await unless_disconnected(request, store.read_graph(graph, kind, gzip))
+        async with turn(request):
+            answer = await unless_disconnected(request, store.read_graph(graph, kind, gzip))
     return respond(request, answer, tag)
 
 
 @router.put(PATH, summary="Replace or create a graph", response_class=Response)
 @router.put(_BELOW, include_in_schema=False)
 async def put_graph(
-    request: Request, settings: CurrentSettings, store: CurrentStore, _: AdminOnly
+    request: Request, settings: CurrentSettings, store: CurrentStore, _: CanUpdate
 ) -> Response:
     """Make a graph hold what is sent, and nothing else."""
     graph = _target(request, settings)
@@ -77,7 +81,7 @@ async def put_graph(
 @router.post(PATH, summary="Add to a graph, or create one", response_class=Response)
 @router.post(_BELOW, include_in_schema=False)
 async def post_graph(
-    request: Request, settings: CurrentSettings, store: CurrentStore, _: AdminOnly
+    request: Request, settings: CurrentSettings, store: CurrentStore, _: CanUpdate
 ) -> Response:
     """Add what is sent to a graph; to a new one, whose name the response says, if none is named."""
     headers = {}
@@ -95,7 +99,7 @@ async def post_graph(
 @router.delete(PATH, summary="Delete a graph", response_class=Response)
 @router.delete(_BELOW, include_in_schema=False)
 async def delete_graph(
-    request: Request, settings: CurrentSettings, store: CurrentStore, _: AdminOnly
+    request: Request, settings: CurrentSettings, store: CurrentStore, _: CanUpdate
 ) -> Response:
     """Remove a graph, or empty the default graph."""
     graph = _target(request, settings)

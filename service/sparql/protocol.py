@@ -7,8 +7,9 @@ from contextlib import contextmanager
 
 from fastapi import APIRouter, Request, Response
 
-from symboslam.service.auth import require_admin
+from symboslam.service.auth import CanQuery, authorize, declare
 from symboslam.service.dependencies import CurrentSettings, CurrentStore
+from symboslam.service.limits import turn
 from symboslam.service.problems import Problem
 from symboslam.service.requests import (
     Parameters,
@@ -41,7 +42,7 @@ _POSTED = f"{SPARQL_QUERY}, {SPARQL_UPDATE} or {FORM}"
 @router.head(PATH, include_in_schema=False)
 @router.head(PATH + "/", include_in_schema=False)
 async def query_by_get(
-    request: Request, settings: CurrentSettings, store: CurrentStore
+    request: Request, settings: CurrentSettings, store: CurrentStore, _: CanQuery
 ) -> Response:
     """A query in the parameter ``query``; without one, the Service Description."""
     parameters = url_parameters(request)
@@ -54,12 +55,14 @@ async def query_by_get(
     return await _query(request, settings, store, text, parameters)
 
 
-@router.post(PATH, summary="Query or update", response_class=Response)
+@router.post(
+    PATH, summary="Query or update", response_class=Response, dependencies=[declare("query")]
+)
 @router.post(PATH + "/", include_in_schema=False)
 async def query_or_update_by_post(
     request: Request, settings: CurrentSettings, store: CurrentStore
 ) -> Response:
-    """A query or an update, as the body or as a form."""
+    """A query or an update, as the body or as a form; an update needs the scope ``update``."""
     kind, _ = media_type(request.headers.get("content-type"))
     parameters = url_parameters(request)
     if kind == FORM:
@@ -70,9 +73,10 @@ async def query_or_update_by_post(
         if query is not None and update is not None:
             raise Problem(400, "query-and-update", "send either a query or an update")
         if "query" in form and query is not None:
+            authorize(request, "query")
             return await _query(request, settings, store, query, parameters)
         if "update" in form and update is not None:
-            require_admin(request)
+            authorize(request, "update")
             return await _update(request, settings, store, update, parameters)
         raise Problem(400, "nothing-asked", "the form has neither 'query' nor 'update'")
     if kind not in (SPARQL_QUERY, SPARQL_UPDATE):
@@ -83,8 +87,7 @@ async def query_or_update_by_post(
     if "query" in parameters or "update" in parameters:
         detail = "there is a query or update both in the address and in the body"
         raise Problem(400, "repeated-parameter", detail)
-    if kind == SPARQL_UPDATE:
-        require_admin(request)
+    authorize(request, "update" if kind == SPARQL_UPDATE else "query")
     limit = settings.max_query_bytes if kind == SPARQL_QUERY else settings.max_body_bytes
     try:
         text = (await read_body(request, limit)).decode()
@@ -124,8 +127,9 @@ async def _query(
         tag = etag(store.version, query)
         if same := not_modified(request, tag):
             return same
-    with problems_of_the_store(), _prefixes_explained(text):
-        answer = await unless_disconnected(request, store.query(query))
+    async with turn(request):
+        with problems_of_the_store(), _prefixes_explained(text):
+            answer = await unless_disconnected(request, store.query(query))
     return respond(request, answer, tag)
 
 
@@ -147,8 +151,10 @@ async def _update(
     except tokens.DatasetConflictError as error:
         detail = f"the dataset is given twice: by the request and by {error} in the update"
         raise Problem(400, "dataset-conflict", detail) from error
-    with problems_of_the_store(), _prefixes_explained(text):
-        await store.update(text, _base(request, settings))
+    base = _base(request, settings)
+    async with turn(request):
+        with problems_of_the_store(), _prefixes_explained(text):
+            await store.update(text, base)
     return Response(status_code=204)
 
 

@@ -76,6 +76,16 @@ class Answer:
     gzipped: bool = False
 
 
+class Activity(NamedTuple):
+    """What a store does, and has done since it was started, for `metrics`."""
+
+    running: int = 0
+    waiting: int = 0
+    timeouts: int = 0
+    killed: int = 0
+    writes: int = 0
+
+
 class QueryError(StoreError):
     """A query or update that does not parse.
 
@@ -130,6 +140,11 @@ class Store(ABC):
     @abstractmethod
     def ready(self) -> bool:
         """Whether queries can be answered now."""
+
+    @property
+    def activity(self) -> Activity:
+        """What it does; zeros where a store does not know."""
+        return Activity()
 
     @abstractmethod
     async def start(self) -> None:

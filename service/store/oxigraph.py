@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 from symboslam.errors import StoreError
 from symboslam.service.store._base import (
+    Activity,
     Answer,
     CrashError,
     Document,
@@ -81,6 +82,12 @@ class OxigraphStore(Store):
     def ready(self) -> bool:
         """Open, and somebody there to answer."""
         return self._store is not None and self._pool.alive > 0
+
+    @property
+    def activity(self) -> Activity:
+        """What it does and has done."""
+        pool = self._pool
+        return Activity(pool.busy, pool.waiting, pool.timeouts, pool.killed, self._generation)
 
     @property
     def busy(self) -> int:

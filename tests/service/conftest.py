@@ -16,9 +16,9 @@ pytest.importorskip("httpx", reason="needs the dev extra")
 pytest.importorskip("uvicorn", reason="needs symboslam[service]")
 
 import httpx
-import uvicorn
 
 from symboslam.service.app import create_app
+from symboslam.service.server import Server
 from symboslam.service.settings import Settings
 from tests.service.fuseki import fuseki
 
@@ -63,11 +63,12 @@ class Service:
 @contextmanager
 def running(**given: Any) -> Iterator[Service]:
     """A service with some settings."""
-    app = create_app(Settings(**given))
+    settings = Settings(**given)
+    app = create_app(settings)
     with socket.socket(proto=socket.IPPROTO_TCP) as listening:
         listening.bind(("127.0.0.1", 0))
         url = f"http://127.0.0.1:{listening.getsockname()[1]}"
-        server = uvicorn.Server(uvicorn.Config(app, log_level="critical", lifespan="on"))
+        server = Server(app, settings)
         thread = threading.Thread(target=server.run, args=([listening],))
         thread.start()
         try:
@@ -126,6 +127,6 @@ def fuseki_url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 
 @pytest.fixture(scope="session")
 def with_ontology(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
-    """A fresh service as ``symboslam serve`` starts it, read-only."""
-    with running(data=tmp_path_factory.mktemp("ontology"), workers=2) as service:
+    """A fresh service as ``symboslam serve --read-only`` starts it."""
+    with running(data=tmp_path_factory.mktemp("ontology"), workers=2, read_only=True) as service:
         yield service

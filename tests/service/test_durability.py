@@ -19,11 +19,14 @@ COUNT = {"query": "SELECT (COUNT(*) AS ?n) { GRAPH ?g { ?s <urn:p> ?o } }"}
 
 
 @contextmanager
-def serve(data: Path, *options: str) -> Iterator[tuple["subprocess.Popen[str]", httpx.Client]]:
-    """``symboslam serve`` as a process, and a client of it."""
+def serve(
+    data: Path, *options: str, log: str = "none", **settings: str
+) -> Iterator[tuple["subprocess.Popen[str]", httpx.Client]]:
+    """``symboslam serve`` as a process with some settings, and a client of it."""
     environment = {
         **os.environ, "SYMBOSLAM_ADMIN_TOKEN": TOKEN, "SYMBOSLAM_BUNDLED_ONTOLOGY": "false",
-        "SYMBOSLAM_WORKERS": "1",
+        "SYMBOSLAM_WORKERS": "1", "SYMBOSLAM_LOG": log,
+        **{f"SYMBOSLAM_{name.upper()}": value for name, value in settings.items()},
     }  # fmt: skip
     command = [sys.executable, "-m", "symboslam", "serve", "--data", str(data), "--port", "0"]
     process = subprocess.Popen(

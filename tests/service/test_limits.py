@@ -49,10 +49,10 @@ def wait_until_busy(service: Service, workers: int) -> None:
 class Killer:
     """A client that has sent the killer and not read the answer."""
 
-    def __init__(self, service: Service) -> None:
+    def __init__(self, service: Service, **headers: str) -> None:
         host, _, port = service.url.removeprefix("http://").partition(":")
         self.connection = HTTPConnection(host, int(port))
-        self.connection.request("GET", "/sparql?" + urlencode({"query": KILLER}))
+        self.connection.request("GET", "/sparql?" + urlencode({"query": KILLER}), headers=headers)
 
     def close(self) -> None:
         self.connection.close()

@@ -7,7 +7,18 @@ import sys
 
 import typer
 
-from symboslam.cli import classify, cq, explain, ontology, pitfalls, serve, show, validate, why
+from symboslam.cli import (
+    classify,
+    cq,
+    explain,
+    ontology,
+    pitfalls,
+    serve,
+    show,
+    token,
+    validate,
+    why,
+)
 from symboslam.errors import SymboSlamError
 
 app = typer.Typer(
@@ -30,6 +41,7 @@ app.command("serve", epilog=serve.EXAMPLES)(serve.serve)
 app.command("why", epilog=why.EXAMPLES)(why.why)
 app.add_typer(ontology.app, name="ontology")
 app.add_typer(cq.app, name="cq")
+app.add_typer(token.app, name="token")
 
 
 def _version(wanted: bool) -> None:

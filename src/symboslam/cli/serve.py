@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import socket
+import sys
+from contextlib import closing, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -18,11 +20,12 @@ EXAMPLES = """
 
 symboslam serve
 
-SYMBOSLAM_ADMIN_TOKEN=... symboslam serve --data /srv/maps --port 8000
+SYMBOSLAM_ADMIN_TOKEN=$(openssl rand -hex 32) symboslam serve --data /srv/maps --port 8000
+
+symboslam token add robots --scope ingest --data /srv/maps
 
 curl -G localhost:8080/sparql --data-urlencode 'query=SELECT * { ?s ?p ?o } LIMIT 3'
 """
-_GRACE = 10  # seconds that running requests get when the service stops
 
 
 def serve(
@@ -36,31 +39,40 @@ def serve(
     host: Annotated[str, typer.Option(help="Address to listen at.")] = "127.0.0.1",
     port: Annotated[int, typer.Option(min=0, max=65535, help="0: any that is free.")] = 8080,
     open_: Annotated[bool, typer.Option("--open", help="Open it in a browser.")] = False,
+    read_only: Annotated[
+        bool, typer.Option("--read-only", help="Let nobody write, whatever their token says.")
+    ] = False,
 ) -> None:  # fmt: skip
     """Serve SPARQL over HTTP until Ctrl-C.
 
-    Reading is free; writing needs the token in SYMBOSLAM_ADMIN_TOKEN. All settings are in
-    docs/service.md. Exit code 0: stopped; 2: the address or the folder is in use, a setting is
-    wrong, or the store cannot be reached.
+    Reading is free; writing needs a token: the one in SYMBOSLAM_ADMIN_TOKEN, or one of
+    [bold]symboslam token add[/]. Where there is no administrator's token yet, one is made and
+    shown, if standard output is a terminal. All settings are in docs/service.md.
+
+    Exit code 0: stopped; 2: the address or the folder is in use, a setting is wrong, or the store
+    cannot be reached.
     """
     try:
         import fastapi  # noqa: F401
+        import prometheus_client  # noqa: F401
         import pydantic_settings  # noqa: F401
         import uvicorn  # noqa: F401
     except ImportError as error:
         raise MissingExtraError(error.name or "fastapi", "service") from error
-    settings = _settings(data)
+    settings = _settings(data, read_only)
     listening = listen(host, port)
     with listening:
         _run(settings, listening, open_)
 
 
-def _settings(data: Path | None) -> Settings:
+def _settings(data: Path | None, read_only: bool) -> Settings:
     from pydantic import ValidationError
 
     from symboslam.service.settings import Settings
 
     given: dict[str, Any] = {} if data is None else {"data": data}
+    if read_only:
+        given["read_only"] = True
     try:
         return Settings(**given)
     except ValidationError as error:
@@ -95,38 +107,23 @@ def listen(host: str, port: int) -> socket.socket:
 
 
 def _run(settings: Settings, listening: socket.socket, open_: bool) -> None:
-    import contextlib
-    import logging
     import signal
 
-    import uvicorn
-
+    from symboslam.service import logs
     from symboslam.service.app import create_app
+    from symboslam.service.server import Server
     from symboslam.service.store.opening import open_store
 
     host, port = listening.getsockname()[:2]
     shown = f"[{host}]" if ":" in host else host
     address = settings.public_url or f"http://{shown}:{port}"
-
-    class Server(uvicorn.Server):
-        async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-            log = logging.getLogger("uvicorn.error")
-            log.setLevel(logging.CRITICAL)  # what keeps it from starting is told below
-            await super().startup(sockets)
-            log.setLevel(logging.WARNING)
-            if self.started:
-                _tell(settings, address, open_)
-
+    logs.install(settings.log, settings.log_level)
     app = create_app(settings, open_store(settings))
-    config = uvicorn.Config(
-        app, log_level="warning", server_header=False,
-        timeout_graceful_shutdown=_GRACE,
-    )  # fmt: skip
-    server = Server(config)
+    server = Server(app, settings, lambda: _tell(settings, address, open_))
     # uvicorn hands the signal that stopped it on to these; a stop that was asked for is no failure.
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: None)
-    with contextlib.suppress(SystemExit):  # uvicorn exits if it does not start
+    with suppress(SystemExit):  # uvicorn exits if it does not start
         server.run([listening])
     if not server.started:
         raise getattr(app.state, "failure", None) or RuntimeError("the service did not start")
@@ -139,8 +136,24 @@ def _tell(settings: Settings, address: str, open_: bool) -> None:
     print(f"SymboSLAM serves {settings.store or settings.data}")
     print(f"  SPARQL   {address}/sparql")
     print(f"  graphs   {address}/graphs")
-    if settings.admin_token is None:
-        print("  read-only: no SYMBOSLAM_ADMIN_TOKEN")
+    if settings.read_only:
+        print("  read-only")
+    elif settings.admin_token is None:
+        _tell_about_tokens(settings.data)
     print("Stop with Ctrl-C.", flush=True)
     if open_:
         webbrowser.open(address + "/")
+
+
+def _tell_about_tokens(data: Path) -> None:
+    """Make the first administrator's token where a person sees it, and no log."""
+    from symboslam.service.tokens import Tokens
+
+    with closing(Tokens(data)) as tokens:
+        if tokens.has_admin():
+            return
+        if sys.stdout.isatty():
+            token, text = tokens.add("first administrator", ["admin"])
+            print(f"  the administrator's token, shown this once (id {token.id}):\n  {text}")
+        else:
+            print("  nobody may write yet: symboslam token add NAME --scope admin")
