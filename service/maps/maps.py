@@ -136,13 +136,9 @@ class Maps:
         knowledge = await self.knowledge(options["ontology"])
         landmarks = _landmarks(area)
         running = await asyncio.to_thread(self._make, record, knowledge, landmarks, {})
-        await asyncio.to_thread(self.records.add, record)
         features = knowledge.features
-        if landmarks:
-            await asyncio.to_thread(
-                self.records.take, record,
-                [(features[m.feature].iri, m) for m in landmarks], [], [],
-            )  # fmt: skip
+        rows = [(features[each.feature].iri, each) for each in landmarks]
+        await asyncio.to_thread(self.records.add, record, rows)
         self._running[record.id] = running
         await running.state()
         return running
@@ -228,11 +224,13 @@ def _landmarks(area: LandmarkMap) -> list[Landmark]:
     """The landmarks of a map, each seen once."""
     times = [None] * len(area) if area.time is None else area.time.tolist()
     agents = [None] * len(area) if area.agent is None else area.agent.tolist()
-    columns = (area.id, area.feature, area.x, area.y, area.confidence)
     return [
-        Landmark(*values, time, agent, 1, values[-1])
-        for *values, time, agent in zip(*(c.tolist() for c in columns), times, agents, strict=True)
-    ]
+        Landmark(name, feature, x, y, confidence, time, agent, 1, confidence)
+        for name, feature, x, y, confidence, time, agent in zip(
+            area.id.tolist(), area.feature.tolist(), area.x.tolist(), area.y.tolist(),
+            area.confidence.tolist(), times, agents, strict=True,
+        )
+    ]  # fmt: skip
 
 
 def _plain(area: LandmarkMap) -> dict[str, Any]:

@@ -159,8 +159,8 @@ class Records:
         )
         return [Override(*row) for row in rows]
 
-    def add(self, record: MapRecord) -> None:
-        """Add a map."""
+    def add(self, record: MapRecord, landmarks: Iterable[tuple[str, Landmark]]) -> None:
+        """Add a map with its first landmarks, each after the IRI of its feature."""
         with self._transaction() as database:
             database.execute(
                 "INSERT INTO map (id, name, created, area, options, changed, left_out, revision)"
@@ -171,6 +171,7 @@ class Records:
                     record.revision,
                 ),
             )  # fmt: skip
+            _put(database, record.id, landmarks)
 
     def remove(self, identifier: str) -> None:
         """Remove a map and all that belongs to it."""
@@ -194,13 +195,7 @@ class Records:
         """
         i = record.id
         with self._transaction() as database:
-            database.executemany(
-                "INSERT OR REPLACE INTO landmark VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-                (
-                    (i, m.id, iri, m.x, m.y, m.confidence, m.time, m.agent, m.count, m.weight)
-                    for iri, m in landmarks
-                ),
-            )
+            _put(database, i, landmarks)
             database.executemany(
                 "INSERT OR REPLACE INTO name VALUES (?, ?, ?, ?)",
                 ((i, agent, name, landmark) for (agent, name), landmark in names),
@@ -257,3 +252,15 @@ class Records:
             yield
         except sqlite3.Error as error:
             raise StoreError(f"the records cannot be read or written: {error}") from error
+
+
+def _put(
+    database: sqlite3.Connection, identifier: str, landmarks: Iterable[tuple[str, Landmark]]
+) -> None:
+    database.executemany(
+        "INSERT OR REPLACE INTO landmark VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+        (
+            (identifier, m.id, iri, m.x, m.y, m.confidence, m.time, m.agent, m.count, m.weight)
+            for iri, m in landmarks
+        ),
+    )
