@@ -73,6 +73,7 @@ class LiveMap:
 
     Attributes:
         table: the landmarks; whoever changes it calls `catch_up`.
+        knowledge: as given.
 
     Raises:
         UnknownNameError: no such profile, scheme or setting.
@@ -89,7 +90,7 @@ class LiveMap:
         **changes: Any,
     ) -> None:
         settings = settings_of(profile, **changes)
-        self._like, self._knowledge = area, knowledge
+        self._like, self.knowledge = area.take(np.zeros(0, np.int64)), knowledge
         self._scheme = scheme or next(iter(knowledge.schemes))
         self._grid = grid = Grid(area.bbox, settings.cells)
         self._proximity = proximity = proximity_of(knowledge, self._scheme, settings)
@@ -122,13 +123,18 @@ class LiveMap:
     def report(self, report: ReadReport) -> None:
         self._like = replace(self._like, report=report)
 
+    @property
+    def area(self) -> LandmarkMap:
+        """Where the map lies, as a map without landmarks."""
+        return self._like
+
     def landmarks(self) -> LandmarkMap:
         """All landmarks."""
         return self.table.take(self.table.rows(), self._like)
 
     def environment_map(self) -> EnvironmentMap:
         """The whole map, classified at one go."""
-        return classify(self.landmarks(), self._knowledge, **self.config)
+        return classify(self.landmarks(), self.knowledge, **self.config)
 
     def described(self, landmarks: Sequence[Landmark]) -> EnvironmentMap:
         """Some landmarks, as a map without segments."""
@@ -278,7 +284,7 @@ class LiveMap:
         if self._settings.dissimilarity and self._settings.evidence == "field":
             denied = self._denied[rows]
         return landmarks, evidence_of(
-            landmarks, self._knowledge, self._scheme, self._grid, self._settings, denied
+            landmarks, self.knowledge, self._scheme, self._grid, self._settings, denied
         )
 
     def _density(self) -> Density:
@@ -317,7 +323,7 @@ class LiveMap:
     ) -> EnvironmentMap:
         counts = sums(self._grid, self._inside, segments.cells)
         return assemble(
-            self._grid, segments, counts, landmarks, self._knowledge, self.config, evidence
+            self._grid, segments, counts, landmarks, self.knowledge, self.config, evidence
         )
 
 

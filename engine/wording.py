@@ -62,3 +62,23 @@ def _line(reason: Reason, environment: str, why: Why) -> str:
     if indication and indication.steps:
         because += f" [{' > '.join(indication.path)}]"
     return f"  {reason.contribution[environment]:+.2f}  {subject}{because}"
+
+
+def summary(explanation: Explanation, limit: int = 3) -> str:
+    """Why a segment is what it is, in one line.
+
+    Args:
+        explanation: of one segment.
+        limit: how many kinds of landmarks to name.
+    """
+    name = explanation.environment
+    if name is None:
+        return f"Segment {explanation.segment_id} is unknown."
+    parts = [
+        f"{reason.count} x {reason.label}" if reason.count else reason.label
+        for reason in explanation.speaking_for(name)[:limit]
+        if reason.contribution[name] >= LEAST
+    ]
+    because = f": {', '.join(parts)}" if parts else ""
+    chance = explanation.probabilities[name]
+    return f"Segment {explanation.segment_id} is {name} (P = {chance:.2f}){because}."

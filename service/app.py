@@ -13,8 +13,13 @@ from symboslam import __version__
 from symboslam.errors import StoreError
 from symboslam.service import health, metrics, problems, tokens_api
 from symboslam.service.auth import Authenticator, describe_public_reading
+from symboslam.service.database import open_database
 from symboslam.service.lifecycle import Lifecycle
 from symboslam.service.limits import Limits, parse_rates
+from symboslam.service.maps import jobs, routes, segments
+from symboslam.service.maps.jobs import Jobs
+from symboslam.service.maps.maps import Maps
+from symboslam.service.maps.records import Records
 from symboslam.service.middleware import Accounts, Guard
 from symboslam.service.settings import Settings
 from symboslam.service.sparql import graph_store, protocol
@@ -47,11 +52,18 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
                 await opened.start()
                 if settings.bundled_ontology:
                     await seed(opened)
+                records = Records(open_database(settings.data))
+                app.state.maps = Maps(records, opened, settings.data / "ontologies")
+                app.state.jobs = Jobs(app.state.maps, settings.data / "jobs")
+                await app.state.maps.start()
             except StoreError as error:
                 app.state.failure = error
                 raise
             yield
         finally:
+            for part in ("jobs", "maps"):
+                if found := getattr(app.state, part, None):
+                    await found.stop()
             await opened.stop()
             if tokens := getattr(app.state, "tokens", None):
                 tokens.close()
@@ -94,6 +106,7 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
     app.add_middleware(Accounts, metrics=app.state.metrics)
     for router in (
         health.router, metrics.router, tokens_api.router, protocol.router, graph_store.router,
+        routes.router, segments.router, jobs.router,
     ):  # fmt: skip
         app.include_router(router)
     return app

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import asyncio
+from collections.abc import AsyncIterator
 from email.message import Message
+from pathlib import Path
 from urllib.parse import unquote_to_bytes
 
 from fastapi import Request
 
+from symboslam.errors import StoreError
 from symboslam.service.problems import Problem
 from symboslam.service.settings import Settings
 
@@ -114,6 +118,28 @@ async def read_body(request: Request, limit: int) -> bytes:
     Raises:
         Problem: it is larger than the limit, or compressed.
     """
+    body = bytearray()
+    async for chunk in _chunks(request, limit):
+        body += chunk
+    return bytes(body)
+
+
+async def body_to_file(request: Request, file: Path, limit: int) -> None:
+    """Write the body of a request to a file.
+
+    Raises:
+        Problem: as `read_body`.
+        StoreError: the file cannot be written.
+    """
+    try:
+        with file.open("wb") as target:
+            async for chunk in _chunks(request, limit):
+                await asyncio.to_thread(target.write, chunk)
+    except OSError as error:
+        raise StoreError(f"the file cannot be kept: {error.strerror or error}") from error
+
+
+async def _chunks(request: Request, limit: int) -> AsyncIterator[bytes]:
     encoding = request.headers.get("content-encoding", "identity").strip().lower()
     if encoding != "identity":
         detail = f"Content-Encoding {encoding} is not understood; send it as it is"
@@ -121,12 +147,12 @@ async def read_body(request: Request, limit: int) -> bytes:
     length = request.headers.get("content-length", "")
     if length.isdigit() and int(length) > limit:
         raise body_too_large(limit)
-    body = bytearray()
+    size = 0
     async for chunk in request.stream():
-        body += chunk
-        if len(body) > limit:
+        size += len(chunk)
+        if size > limit:
             raise body_too_large(limit)
-    return bytes(body)
+        yield chunk
 
 
 def body_too_large(limit: int) -> Problem:

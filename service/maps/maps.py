@@ -13,9 +13,10 @@ from typing import Any
 
 import numpy as np
 import shapely
+from shapely.geometry.base import BaseGeometry
 
 from symboslam.engine.frame import Frame
-from symboslam.engine.landmarks import LandmarkMap
+from symboslam.engine.landmarks import Box, LandmarkMap
 from symboslam.engine.live import LiveMap
 from symboslam.engine.sightings import Sightings
 from symboslam.engine.table import Landmark
@@ -241,13 +242,20 @@ def _plain(area: LandmarkMap) -> dict[str, Any]:
 
 def _area(values: dict[str, Any]) -> LandmarkMap:
     """A map without landmarks where `_plain` says."""
-    none = np.zeros(0)
-    frame = Frame(values["frame"]["geographic"], tuple(values["frame"]["origin"]))
     west, south, east, north = values["bbox"]
     surveyed = values["surveyed"]
+    return empty_map(
+        Frame(values["frame"]["geographic"], tuple(values["frame"]["origin"])),
+        (west, south, east, north),
+        None if surveyed is None else shapely.from_wkt(surveyed),
+    )
+
+
+def empty_map(frame: Frame, bbox: Box, surveyed: BaseGeometry | None) -> LandmarkMap:
+    """A map without landmarks."""
+    none = np.zeros(0)
     return LandmarkMap(
         feature=none.astype(np.int32), x=none, y=none, confidence=none,
-        static=none.astype(np.bool_), id=none.astype(np.str_), frame=frame,
-        bbox=(west, south, east, north),
-        surveyed=None if surveyed is None else shapely.from_wkt(surveyed),
+        static=none.astype(np.bool_), id=none.astype(np.str_), frame=frame, bbox=bbox,
+        surveyed=surveyed,
     )  # fmt: skip

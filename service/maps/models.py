@@ -1,0 +1,171 @@
+"""What requests about maps say and what they get, as JSON."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from typing import Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+_STRICT = ConfigDict(extra="forbid")
+Length = Literal["line", "paragraph", "full"]
+
+
+class Segmentation(BaseModel):
+    """How a map is cut; what is left out is as in the profile."""
+
+    model_config = _STRICT
+
+    method: Literal["grid"] = "grid"
+    cells: int | None = Field(
+        default=None, ge=1, le=192, description="Finest cells along each side."
+    )
+    threshold: float | None = Field(
+        default=None, ge=0, le=1, description="A cell is split while its largest P is below this."
+    )
+    min_landmarks: int | None = Field(default=None, ge=0, le=10**9)
+    empty: Literal["inherit", "unknown"] | None = None
+
+
+class Options(BaseModel):
+    """How a map is classified."""
+
+    model_config = _STRICT
+
+    profile: Literal["default", "paper"] = "default"
+    scheme: str | None = Field(
+        default=None,
+        max_length=200,
+        description="Set of environment types; by default the ontology's.",
+    )
+    ontology: str | None = Field(
+        default=None, max_length=2000,
+        description="IRI of a graph in the store that holds an ontology; by default the bundled.",
+    )  # fmt: skip
+    segmentation: Segmentation = Segmentation()
+    settings: dict[str, float | int | str | None] = Field(
+        default={},
+        max_length=20,
+        description="Settings that differ from the profile's: `bandwidth`, ...",
+    )
+    merge_radius: float = Field(
+        default=5.0,
+        ge=0,
+        le=10_000,
+        description="Metres within which observations of a class are of one.",
+    )
+    reasons: int = Field(default=5, ge=0, le=100, description="Reasons of a segment in the store.")
+
+
+class MapRequest(Options):
+    """A map to make."""
+
+    name: str = Field(min_length=1, max_length=200)
+    bbox: list[float] = Field(
+        min_length=4, max_length=6, description="Min x, min y, max x, max y (west, south, ...)."
+    )
+    crs: str | None = Field(
+        default=None, max_length=200,
+        description="Of bbox and surveyed: `EPSG:...`; `m` for local metres; default OGC:CRS84.",
+    )  # fmt: skip
+    surveyed: dict[str, Any] | None = Field(
+        default=None, description="GeoJSON geometry of what was looked at; by default the box."
+    )
+
+
+class MapInfo(BaseModel):
+    """A map."""
+
+    id: str
+    name: str
+    iri: str = Field(description="IRI of the map, the base of its graphs and of all that is in it.")
+    bbox: list[float]
+    crs: str
+    created: datetime
+    changed: datetime
+    revision: int = Field(description="How often it changed.")
+    landmarks: int
+    batches: int
+    left_out: dict[str, int]
+    environments: list[str]
+    settings: dict[str, Any]
+    links: dict[str, str]
+
+
+class LeftOut(BaseModel):
+    """What was not taken of a batch."""
+
+    outside: int
+    unknown: dict[str, int] = Field(description="Class or tags that no feature has -> how many.")
+
+
+class BatchResult(BaseModel):
+    """What became of a batch."""
+
+    batch: str
+    received: int
+    new: int = Field(description="Observations that began a landmark.")
+    merged: int = Field(description="Observations of landmarks that were known.")
+    left_out: LeftOut
+    notes: list[str]
+    revision: int = Field(description="Revision of the map from which on it counts.")
+
+
+class OverrideRequest(BaseModel):
+    """An operator's statement about a segment."""
+
+    model_config = _STRICT
+
+    environment: str | None = Field(
+        max_length=200, description="Name of an environment type; null: it is unknown."
+    )
+    reason: str = Field(default="", max_length=2000)
+    operator: str | None = Field(
+        default=None,
+        min_length=1,
+        max_length=200,
+        description="Who says so; by default the token's name.",
+    )
+
+
+class OverrideInfo(BaseModel):
+    """An override."""
+
+    id: str
+    segment: str
+    environment: str | None
+    operator: str
+    reason: str
+    made: datetime
+    undone: datetime | None
+
+
+class ReasonInfo(BaseModel):
+    """What landmarks of one kind, or the open ground, add to the probabilities."""
+
+    feature: str
+    label: str
+    count: int
+    contribution: dict[str, float]
+
+
+class ExplanationInfo(BaseModel):
+    """Why a segment is what it is."""
+
+    segment: str
+    environment: str | None
+    probabilities: dict[str, float]
+    override: OverrideInfo | None
+    text: str
+    reasons: list[ReasonInfo]
+
+
+class JobInfo(BaseModel):
+    """A classification of a whole file."""
+
+    id: str
+    state: Literal["running", "done", "failed"]
+    stage: str
+    share: float = Field(description="Of the stage, from 0 to 1.")
+    map: str | None = Field(description="Id of the map, when it is done.")
+    problem: str | None
