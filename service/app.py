@@ -11,6 +11,8 @@ from starlette.middleware.gzip import GZipMiddleware
 
 from symboslam import __version__
 from symboslam.service import health, problems
+from symboslam.service.examples import routes as examples
+from symboslam.service.page import routes as page
 from symboslam.service.settings import Settings
 from symboslam.service.sparql import graph_store, protocol
 from symboslam.service.store._base import Store
@@ -59,6 +61,8 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
             allow_headers=["Authorization", "Content-Type", "If-None-Match"],
             expose_headers=["ETag", "Location", "Retry-After"],
         )
-    for router in (health.router, protocol.router, graph_store.router):
+    for router in (
+        health.router, protocol.router, graph_store.router, examples.router, page.router,
+    ):  # fmt: skip
         app.include_router(router)
     return app
