@@ -53,8 +53,8 @@
     const example = examples.find((each) => each.name === name);
     about.textContent = example ? example.description : "";
     if (!example) return;
-    const query = maps.value ? example.query.replaceAll(EXAMPLE_MAP, maps.value) : example.query;
-    editor.set(query);
+    const query = example.query.split("\n").slice(3).join("\n").trimStart(); // title and so on: see above
+    editor.set(maps.value ? query.replaceAll(EXAMPLE_MAP, maps.value) : query);
   }
 
   async function listExamples() {
@@ -86,6 +86,7 @@
     }
   }
 
+  document.getElementById("choices").addEventListener("submit", (event) => event.preventDefault());
   menu.addEventListener("change", () => show(menu.value));
   maps.addEventListener("change", () => show(menu.value));
   token.addEventListener("change", async () => {
