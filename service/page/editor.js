@@ -1,6 +1,18 @@
 // The page with YASGUI: its editor (YASQE) and its table (YASR). Nothing is kept in the browser.
 "use strict";
 
+// The detail of a problem, which YASGUI would show as the JSON that it is in.
+async function said(error) {
+  try {
+    const made = document.createElement("p");
+    made.className = "problem";
+    made.textContent = JSON.parse(error.text).detail;
+    return made.textContent ? made : undefined;
+  } catch {
+    return undefined;
+  }
+}
+
 /* exported richEditor */
 function richEditor(prefixes, endpoint, headers) {
   const { Yasqe, Yasr } = window.Yasgui;
@@ -42,6 +54,8 @@ function richEditor(prefixes, endpoint, headers) {
     persistenceId: null,
     prefixes: () => ({ ...prefixes, ...editor.getPrefixesFromQuery() }),
     getDownloadFileName: () => "results",
+    plugins: { table: { dynamicConfig: { compact: true } } },
+    errorRenderers: [said],
   });
   editor.on("queryResponse", (_, response, duration) => table.setResponse(response, duration));
   return {

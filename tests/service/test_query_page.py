@@ -30,7 +30,7 @@ INSERT DATA {
   }
   GRAPH <https://e.org/g> { <https://e.org/a> <https://e.org/name> "Ann, <b>bold</b>" }
 }"""
-NAMES = 'SELECT ?name WHERE { GRAPH ?g { ?x <https://e.org/name> ?name } }'
+NAMES = "SELECT ?name WHERE { GRAPH ?g { ?x <https://e.org/name> ?name } }"
 
 
 @pytest.fixture(scope="module")
@@ -146,7 +146,8 @@ def test_an_example_is_asked_of_the_chosen_map(browser: Browser, service: Servic
 def test_says_what_is_wrong(browser: Browser, service: Service) -> None:
     browser.open(f"{service.url}/query", "?query=SELECT %3Fx WHERE { %3Fx %3Fy }")
     browser.run("document.querySelector('.yasqe_queryButton').click()")
-    browser.wait("document.querySelector('.yasr_results')?.innerText.includes('malformed-query')")
+    browser.wait("document.querySelector('.yasr_results .problem') !== null")
+    assert browser.text(".yasr_results .problem").startswith("line 1")
     assert [c for c in browser.complaints() if "400" in c]
     browser.events.clear()  # the browser tells of every 400
 
