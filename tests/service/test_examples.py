@@ -259,15 +259,18 @@ def inside(m: EnvironmentMap, segment: str) -> list[int]:
     return [int(i) for i in np.flatnonzero(found)]
 
 
-def test_landmarks_for(rows: list[Row]) -> None:
+@pytest.mark.parametrize("environment", ["Commercial", "Industrial"])
+def test_landmarks_for(town: Service, environment: str) -> None:
     m, names = town_map(), features(town_map())
-    expected = {}
-    for i in inside(m, SEGMENT):
-        if m.knowledge.find_indication(names[i], "Commercial"):
-            expected[str(m.landmarks.id[i])] = float(m.landmarks.confidence[i])
-    found = {row["landmark"]: float(row["confidence"]) for row in rows}
-    assert len(found) == len(rows)
-    assert found == expected
+    expected = {
+        str(m.landmarks.id[i])
+        for i in inside(m, SEGMENT)
+        if m.knowledge.find_indication(names[i], environment)
+    }
+    query = get_example("landmarks-for").query.replace("CommercialFeature", f"{environment}Feature")
+    found = [row[0] for row in town.values(query)]
+    assert set(found) == expected
+    assert len(found) == len(expected) > 0
 
 
 def test_doubtful_landmarks(rows: list[Row]) -> None:
