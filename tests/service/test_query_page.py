@@ -15,7 +15,7 @@ from symboslam.service.vocabulary import QUERY_PREFIXES
 from tests.engine.writers.page.browser.conftest import CHROMIUM, Browser
 
 if TYPE_CHECKING:
-    from tests.service.conftest import MakeService, Service
+    from tests.service.conftest import Service
 
 PAGE = Path(routes.__file__).parent
 BUILT = PAGE / "built"

@@ -7,7 +7,19 @@ import sys
 
 import typer
 
-from symboslam.cli import classify, cq, explain, ontology, pitfalls, serve, show, validate, why
+from symboslam.cli import (
+    classify,
+    cq,
+    explain,
+    ontology,
+    pitfalls,
+    push,
+    query,
+    serve,
+    show,
+    validate,
+    why,
+)
 from symboslam.errors import SymboSlamError
 
 app = typer.Typer(
@@ -27,6 +39,8 @@ app.command("sample")(show.sample)
 app.command("validate", epilog=validate.EXAMPLES)(validate.validate)
 app.command("pitfalls", epilog=pitfalls.EXAMPLES)(pitfalls.pitfalls)
 app.command("serve", epilog=serve.EXAMPLES)(serve.serve)
+app.command("query", epilog=query.EXAMPLES)(query.query)
+app.command("push", epilog=push.EXAMPLES)(push.push)
 app.command("why", epilog=why.EXAMPLES)(why.why)
 app.add_typer(ontology.app, name="ontology")
 app.add_typer(cq.app, name="cq")
