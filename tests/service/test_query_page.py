@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import re
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -124,6 +126,40 @@ def test_asks_and_shows_a_table(browser: Browser, service: Service) -> None:
     browser.wait("document.querySelector('.yasr_results table tbody tr') !== null")
     assert "Ann, <b>bold</b>" in browser.text(".yasr_results table tbody")
     assert browser.run("localStorage.length") == 0
+
+
+def saved(browser: Browser, folder: Path, button: str) -> str:
+    """What a button saves as a file."""
+    browser.call(
+        "Browser.setDownloadBehavior", at_page=False, behavior="allow", downloadPath=str(folder)
+    )
+    browser.run(f"document.querySelector('{button}').click()")
+    end = time.monotonic() + 20
+    while not (found := list(folder.glob("results*.csv"))):
+        assert time.monotonic() < end, "nothing was saved"
+        browser.settle()
+    return found[0].read_text()
+
+
+@needs_yasgui
+@pytest.mark.browser
+def test_saves_csv(browser: Browser, service: Service, tmp_path: Path) -> None:
+    browser.open(f"{service.url}/query", f"?query={NAMES}")
+    browser.run("document.querySelector('.yasqe_queryButton').click()")
+    browser.wait("document.querySelector('.yasr_results table tbody tr') !== null")
+    text = saved(browser, tmp_path, ".yasr_downloadIcon")
+    assert list(csv.reader(text.splitlines())) == [["name"], ["Ann, <b>bold</b>"]]
+
+
+@pytest.mark.browser
+def test_saves_csv_without_yasgui(
+    browser: Browser, service: Service, plain: None, tmp_path: Path
+) -> None:
+    browser.open(f"{service.url}/query", f"?query={NAMES}")
+    browser.run("document.querySelector('#plain button').click()")
+    browser.wait("document.querySelector('#save').hidden === false")
+    text = saved(browser, tmp_path, "#save")
+    assert list(csv.reader(text.splitlines())) == [["name"], ["Ann, <b>bold</b>"]]
 
 
 @needs_yasgui
