@@ -16,7 +16,7 @@ BENCHMARK ?= ../shared/benchmark
 UPSTREAM ?= ../shared/upstream
 SEED ?= 7
 
-.PHONY: help demo test test-slow lint format bench docs knowledge pitfalls results picture proofs acceptance system wheel clean
+.PHONY: help demo test test-slow lint format bench query-page docs knowledge pitfalls results picture proofs acceptance system wheel clean
 
 help: ## list the targets
 	@grep -E '^[a-z.][a-z.-]*:.*## ' Makefile | sed -E 's/^([a-z.-]+):.*## /\1\t/' | expand -t 14
@@ -26,12 +26,13 @@ help: ## list the targets
 .venv/.created:
 	@scripts/make-venv "$(PYTHON)"
 
-$(STAMP): .venv/.created pyproject.toml constraints.txt
+$(STAMP): .venv/.created pyproject.toml constraints.txt service/page/yasgui.sha512
 	@echo "Installing SymboSLAM and its tools into .venv (about a minute the first time) ..."
 	$(PY) -m pip install --quiet --disable-pip-version-check -c constraints.txt \
 	  hatchling setuptools
 	$(PY) -m pip install --quiet --disable-pip-version-check -c constraints.txt \
 	  --no-build-isolation -e '.[dev]'
+	scripts/query-page --if-possible
 	rm -f .venv/.installed-*
 	touch $@
 
@@ -59,6 +60,9 @@ format: $(STAMP) ## mend what ruff can mend
 
 bench: $(STAMP) ## measure speed and memory, write bench/RESULTS.md (some minutes)
 	@$(PY) -m bench --out bench/RESULTS.md
+
+query-page: ## fetch YASGUI for the query page (needs npm; `make .venv` does it where it can)
+	@scripts/query-page
 
 docs: $(STAMP) ## write docs/cli.md anew, and pages about the ontology into build/docs
 	@$(PY) scripts/cli_docs.py
@@ -90,5 +94,5 @@ wheel: $(STAMP) ## build wheel and sdist into dist/ and try the wheel in a fresh
 	@scripts/check-wheel
 
 clean: ## remove .venv and everything built
-	@rm -rf .venv build dist demo .mypy_cache .pytest_cache .ruff_cache .hypothesis
+	@rm -rf .venv build dist demo service/page/built .mypy_cache .pytest_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -not -path './.git/*' -type d -prune -exec rm -rf {} +

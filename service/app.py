@@ -14,6 +14,7 @@ from symboslam.errors import StoreError
 from symboslam.service import health, metrics, problems, tokens_api
 from symboslam.service.auth import Authenticator, describe_public_reading
 from symboslam.service.database import open_database
+from symboslam.service.examples import routes as examples
 from symboslam.service.lifecycle import Lifecycle
 from symboslam.service.limits import Limits, parse_rates
 from symboslam.service.maps import jobs, routes, segments
@@ -21,6 +22,7 @@ from symboslam.service.maps.jobs import Jobs
 from symboslam.service.maps.maps import Maps
 from symboslam.service.maps.records import Records
 from symboslam.service.middleware import Accounts, Guard
+from symboslam.service.page import routes as page
 from symboslam.service.settings import Settings
 from symboslam.service.sparql import graph_store, protocol
 from symboslam.service.store._base import Store
@@ -106,7 +108,7 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
     app.add_middleware(Accounts, metrics=app.state.metrics)
     for router in (
         health.router, metrics.router, tokens_api.router, protocol.router, graph_store.router,
-        routes.router, segments.router, jobs.router,
+        routes.router, segments.router, jobs.router, examples.router, page.router,
     ):  # fmt: skip
         app.include_router(router)
     return app

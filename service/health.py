@@ -15,6 +15,7 @@ _PAGE = """<!doctype html>
 <html lang="en"><meta charset="utf-8"><title>SymboSLAM</title>
 <h1>SymboSLAM</h1>
 <ul>
+<li><a href="query">query</a>: a page to ask queries on, with examples
 <li><a href="sparql">sparql</a>: SPARQL 1.1 queries and updates; without a query, what it can do
 <li>graphs?graph=IRI: whole graphs, for example
 <a href="graphs?graph=https%3A%2F%2Fw3id.org%2Fsymboslam%2Fgraph%2Fontology">the ontology</a>

@@ -30,6 +30,13 @@ PREFIXES = {
     "sd": SD,
 }
 """Prefixes of what is written as Turtle or TriG."""
+QUERY_PREFIXES = {
+    **PREFIXES,
+    "geof": "http://www.opengis.net/def/function/geosparql/",
+    "uom": "http://www.opengis.net/def/uom/OGC/1.0/",
+    "graph": GRAPHS,
+}
+"""Prefixes that the query page knows."""
 
 # Media type -> name of the format in pyoxigraph. The first of each table is the default.
 SOLUTIONS = {

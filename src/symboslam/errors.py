@@ -14,6 +14,7 @@
     │   └── EmptyOntologyError        it declares no environments or no indications
     ├── OutputError             a result could not be written; what was there before is kept (2)
     ├── StoreError              the service's store cannot be opened, read or written (exit code 2)
+    ├── ServiceError            a service that was asked is out of reach or has failed (exit code 3)
     ├── MissingExtraError       an optional dependency is not installed; names the extra (2)
     └── ReasonerError           the reasoner could not be run: no Java, or it crashed (exit code 3)
 """
@@ -91,6 +92,12 @@ class OutputError(SymboSlamError):
 
 class StoreError(SymboSlamError):
     """The store of the service cannot be opened, read or written."""
+
+
+class ServiceError(SymboSlamError):
+    """A service that was asked cannot be reached, or has failed."""
+
+    exit_code = 3
 
 
 class MissingExtraError(SymboSlamError):

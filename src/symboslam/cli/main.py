@@ -13,6 +13,8 @@ from symboslam.cli import (
     explain,
     ontology,
     pitfalls,
+    push,
+    query,
     serve,
     show,
     token,
@@ -38,6 +40,8 @@ app.command("sample")(show.sample)
 app.command("validate", epilog=validate.EXAMPLES)(validate.validate)
 app.command("pitfalls", epilog=pitfalls.EXAMPLES)(pitfalls.pitfalls)
 app.command("serve", epilog=serve.EXAMPLES)(serve.serve)
+app.command("query", epilog=query.EXAMPLES)(query.query)
+app.command("push", epilog=push.EXAMPLES)(push.push)
 app.command("why", epilog=why.EXAMPLES)(why.why)
 app.add_typer(ontology.app, name="ontology")
 app.add_typer(cq.app, name="cq")

@@ -43,13 +43,14 @@ class Browser:
 
     Args:
         profile: a folder that the browser may fill.
+        offline: without any network; else this machine can be reached, and nothing beyond it.
     """
 
-    def __init__(self, profile: Path) -> None:
+    def __init__(self, profile: Path, offline: bool = True) -> None:
         assert CHROMIUM
         inbox, self._outbox = os.pipe()
         self._inbox, outbox = os.pipe()
-        no_network = OFFLINE if _can_unshare() else []
+        no_network = OFFLINE if offline and _can_unshare() else []
         command = [
             *no_network,
             sys.executable,
@@ -123,7 +124,7 @@ class Browser:
 
     def open(
         self,
-        page: Path,
+        page: Path | str,
         fragment: str = "",
         width: int = 1200,
         height: int = 800,
@@ -131,7 +132,7 @@ class Browser:
     ) -> None:
         """Load a page in a window of this size and wait until it says that it is ready."""
         self.call("Page.navigate", url="about:blank")
-        self._page = page.as_uri()
+        self._page = page if isinstance(page, str) else page.as_uri()
         self.call(
             "Emulation.setDeviceMetricsOverride",
             width=width,
