@@ -76,9 +76,11 @@ class Jobs:
         """Begin a job."""
         identifier = token_hex(6)
         job = Job(
-            JobInfo(id=identifier, state="running", stage="waiting", share=0, map=None, problem=None),
+            JobInfo(
+                id=identifier, state="running", stage="waiting", share=0, map=None, problem=None
+            ),
             file,
-        )  # fmt: skip
+        )
         self._jobs[identifier] = job
         while len(self._jobs) > _KEPT:
             self._jobs.popitem(last=False)
