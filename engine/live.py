@@ -69,11 +69,13 @@ class LiveMap:
         knowledge: what each kind of landmark indicates.
         profile: ``default`` or ``paper``.
         scheme: set of environment types; None takes the ontology's default.
+        in_force: estimate of absence that was in force when the map was left.
         **changes: settings that differ from the profile's.
 
     Attributes:
         table: the landmarks; whoever changes it calls `catch_up`.
         knowledge: as given.
+        absence: evidence of unmarked ground per hectare, as set or estimated.
 
     Raises:
         UnknownNameError: no such profile, scheme or setting.
@@ -87,6 +89,7 @@ class LiveMap:
         *,
         profile: str = "default",
         scheme: str | None = None,
+        in_force: float | None = None,
         **changes: Any,
     ) -> None:
         settings = settings_of(profile, **changes)
@@ -99,14 +102,17 @@ class LiveMap:
         self._ground = ground_of(knowledge, proximity)
         self._bandwidth = bandwidth
         self._width = np.maximum([f.site for f in knowledge.features], bandwidth)
+        self._widths, group = np.unique(self._width, return_inverse=True)
         self._seen = seen_cells(grid, area.surveyed)
         self._inside = np.zeros((grid.cells, grid.cells), np.int64)
         self._field = np.zeros((grid.cells, grid.cells, proximity.shape[1]))
         self._estimates = settings.absence is None
-        self._absence = crowding_share(self._field) if self._estimates else settings.absence or 0.0
-        self._settings = replace(settings, bandwidth=bandwidth, absence=self._absence)
+        self.absence = settings.absence or 0.0
+        if self._estimates:
+            self.absence = in_force or crowding_share(self._field)
+        self._settings = replace(settings, bandwidth=bandwidth, absence=self.absence)
         self._roots: dict[tuple[int, int], Segments] = {}
-        self.table = LandmarkTable(knowledge, grid)
+        self.table = LandmarkTable(knowledge, grid, group)
         self._update(np.ones((grid.cells, grid.cells), bool), Change({}))
 
     @property
@@ -278,7 +284,7 @@ class LiveMap:
             roots = covered(self._grid, _cells(self._roots_in(cells)))
             rows = self.table.within(np.flatnonzero(roots).tolist())
         else:
-            rows = reaching(self.table, self._grid, cells, self._width)
+            rows = reaching(self.table, self._grid, cells, self._widths)
         landmarks = self.table.take(rows, self._like)
         denied = np.zeros((len(rows), self._denied.shape[1]))
         if self._settings.dissimilarity and self._settings.evidence == "field":
@@ -288,15 +294,15 @@ class LiveMap:
         )
 
     def _density(self) -> Density:
-        field = self._field + self._absence * self._ground
+        field = self._field + self.absence * self._ground
         return Density(self._grid, self._settings.threshold, field, self._inside)
 
     def _silence_changed(self) -> bool:
         """Estimate anew what unmarked ground says; whether that has moved far enough to count."""
         estimate = crowding_share(self._field)
-        if not self._estimates or abs(estimate - self._absence) <= DRIFT * self._absence:
+        if not self._estimates or abs(estimate - self.absence) <= DRIFT * self.absence:
             return False
-        self._absence = estimate
+        self.absence = estimate
         self._settings = replace(self._settings, absence=estimate)
         return True
 

@@ -72,16 +72,15 @@ def reaching(table: LandmarkTable, grid: Grid, mask: Mask, sigma: Floats) -> Int
         table: the landmarks.
         grid: the cells.
         mask: which of them.
-        sigma: standard deviation of the kernel of each feature, in metres.
+        sigma: standard deviation of the kernel of each group of features, in metres.
     """
     sums = np.zeros((grid.cells + 1, grid.cells + 1), np.int64)
     sums[1:, 1:] = mask.cumsum(0).cumsum(1)
     parts = []
-    for size in np.unique(sigma).tolist():
+    for group, size in enumerate(sigma.tolist()):
         # Twice the reach: at the map's edge a kernel's rectangle is moved inwards.
         around = grown(grid, mask, 2 * REACH * size + 2 * max(grid.step))
-        rows = table.within(np.flatnonzero(around).tolist())
-        rows = rows[sigma[table.feature(rows)] == size]
+        rows = table.within(np.flatnonzero(around).tolist(), group)
         xy = table.xy(rows)
         south, north, west, east = _rectangles(grid, xy[:, 0], xy[:, 1], size)
         inside = sums[north, east] - sums[south, east] - sums[north, west] + sums[south, west]

@@ -50,9 +50,13 @@ class LandmarkTable:
     Args:
         knowledge: what their features are.
         grid: cells by which they are found.
+        group: (features,) number of the group of each feature, by which they are found as well;
+            by default all are of one group.
     """
 
-    def __init__(self, knowledge: Knowledge, grid: Grid) -> None:
+    def __init__(
+        self, knowledge: Knowledge, grid: Grid, group: NDArray[np.int64] | None = None
+    ) -> None:
         self._static = np.array([f.static for f in knowledge.features], np.bool_)
         self._grid = grid
         self._rows: dict[str, int] = {}
@@ -61,7 +65,8 @@ class LandmarkTable:
         self._feature = np.zeros(_FIRST, np.int32)
         self._numbers = np.zeros((_FIRST, 3))  # x, y, confidence
         self._cell: list[int] = []
-        self._within: dict[int, set[int]] = {}
+        self._group = [0] * len(self._static) if group is None else group.tolist()
+        self._within: list[dict[int, set[int]]] = [{} for _ in range(max(self._group) + 1)]
         self._before: dict[str, Landmark | None] = {}
 
     def __len__(self) -> int:
@@ -80,6 +85,10 @@ class LandmarkTable:
         """Row of a landmark, or None."""
         return self._rows.get(identifier)
 
+    def number(self, identifier: str) -> int:
+        """Row of a landmark that is there."""
+        return self._rows[identifier]
+
     def rows(self) -> Rows:
         """All rows, in order."""
         return np.array(sorted(self._rows.values()), np.int64)
@@ -92,13 +101,14 @@ class LandmarkTable:
             row = self._new_row()
             self._rows[landmark.id] = row
         else:
-            self._within[self._cell[row]].discard(row)
+            self._leave(row)
         self._landmarks[row] = landmark
         self._feature[row] = landmark.feature
         self._numbers[row] = landmark.x, landmark.y, landmark.confidence
         r, c = self._grid.finest_of(np.array([landmark.x]), np.array([landmark.y]))
         self._cell[row] = int(r[0]) * self._grid.cells + int(c[0])
-        self._within.setdefault(self._cell[row], set()).add(row)
+        group = self._within[self._group[landmark.feature]]
+        group.setdefault(self._cell[row], set()).add(row)
         return row
 
     def remove(self, identifier: str) -> None:
@@ -106,7 +116,7 @@ class LandmarkTable:
         row = self._rows.pop(identifier, None)
         if row is not None:
             self._before.setdefault(identifier, self._landmarks[row])
-            self._within[self._cell[row]].discard(row)
+            self._leave(row)
             self._landmarks[row] = None
             self._free.append(row)
 
@@ -117,7 +127,7 @@ class LandmarkTable:
 
     def count(self, cell: int) -> int:
         """Landmarks in a finest cell, given as row * cells + column."""
-        return len(self._within.get(cell, ()))
+        return sum(len(group.get(cell, ())) for group in self._within)
 
     def _new_row(self) -> int:
         if self._free:
@@ -142,13 +152,27 @@ class LandmarkTable:
         """(m,) confidences of rows."""
         return np.asarray(self._numbers[rows, 2])
 
-    def within(self, cells: Iterable[int]) -> Rows:
-        """Rows in finest cells, given as row * cells + column; in order."""
-        empty: set[int] = set()
-        found: list[int] = []
-        for cell in cells:
-            found.extend(self._within.get(cell, empty))
-        return np.array(sorted(found), np.int64)
+    def within(self, cells: Iterable[int], group: int | None = None) -> Rows:
+        """Rows in finest cells, given as row * cells + column; in order.
+
+        Args:
+            cells: the cells.
+            group: of the features; None takes all.
+        """
+        wanted = list(cells)
+        found: set[int] = set()
+        for here in self._within if group is None else [self._within[group]]:
+            if len(here) < len(wanted):
+                chosen = set(wanted)
+                found.update(*(rows for cell, rows in here.items() if cell in chosen))
+            else:
+                found.update(*(here[cell] for cell in wanted if cell in here))
+        rows = np.fromiter(found, np.int64, len(found))
+        rows.sort()
+        return rows
+
+    def _leave(self, row: int) -> None:
+        self._within[self._group[self._feature[row]]][self._cell[row]].discard(row)
 
     def take(self, rows: Rows, like: LandmarkMap) -> LandmarkMap:
         """Some landmarks as a map with the frame, area and report of another."""

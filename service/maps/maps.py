@@ -137,8 +137,9 @@ class Maps:
         knowledge = await self.knowledge(options["ontology"])
         landmarks = _landmarks(area)
         running = await asyncio.to_thread(self._make, record, knowledge, landmarks, {})
+        record = running.record = replace(record, absence=running.live.absence)
         features = knowledge.features
-        rows = [(features[each.feature].iri, each) for each in landmarks]
+        rows = [(n, features[each.feature].iri, each) for n, each in enumerate(landmarks)]
         await asyncio.to_thread(self.records.add, record, rows)
         self._running[record.id] = running
         await running.state()
@@ -170,9 +171,8 @@ class Maps:
                 if (index := knowledge.index_of(iri)) is not None
             ]
             names = await asyncio.to_thread(self.records.names, identifier)
-            # What it states is computed anew, and may differ in its last digit.
-            record = replace(record, stated=-1)
             running = await asyncio.to_thread(self._make, record, knowledge, landmarks, names)
+            await running.remember()
             self._running[identifier] = running
             return running
 
@@ -201,7 +201,7 @@ class Maps:
         area = replace(_area(record.area), report=report_of(record))
         live = LiveMap(
             area, knowledge, profile=options["profile"], scheme=options["scheme"],
-            **options["settings"],
+            in_force=record.absence, **options["settings"],
         )  # fmt: skip
         if live.config["cells"] > MOST_CELLS:
             cells = live.config["cells"]

@@ -19,12 +19,12 @@ _TABLES = """
 CREATE TABLE IF NOT EXISTS map (
   id TEXT PRIMARY KEY, name TEXT NOT NULL, created TEXT NOT NULL, area TEXT NOT NULL,
   options TEXT NOT NULL, left_out TEXT NOT NULL DEFAULT '{}', revision INTEGER NOT NULL DEFAULT 0,
-  changed TEXT NOT NULL, stated INTEGER NOT NULL DEFAULT -1
+  changed TEXT NOT NULL, stated INTEGER NOT NULL DEFAULT -1, absence REAL
 ) WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS landmark (
   map TEXT NOT NULL REFERENCES map ON DELETE CASCADE, id TEXT NOT NULL, feature TEXT NOT NULL,
   x REAL NOT NULL, y REAL NOT NULL, confidence REAL NOT NULL, time TEXT, agent TEXT,
-  count INTEGER NOT NULL, weight REAL NOT NULL, PRIMARY KEY (map, id)
+  count INTEGER NOT NULL, weight REAL NOT NULL, number INTEGER NOT NULL, PRIMARY KEY (map, id)
 ) WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS name (
   map TEXT NOT NULL REFERENCES map ON DELETE CASCADE, agent TEXT NOT NULL, name TEXT NOT NULL,
@@ -42,6 +42,10 @@ CREATE TABLE IF NOT EXISTS override (
 """
 
 
+Row = tuple[int, str, Landmark]
+"""A landmark after its number in the map and the IRI of its feature."""
+
+
 @dataclass(frozen=True)
 class MapRecord:
     """A map as it was asked for.
@@ -56,6 +60,7 @@ class MapRecord:
         revision: how often it changed.
         changed: when it did last, ISO 8601.
         stated: the revision that the store is at; -1 = none.
+        absence: evidence of unmarked ground that was in force last.
     """
 
     id: str
@@ -67,6 +72,7 @@ class MapRecord:
     left_out: Counter[str] = field(default_factory=Counter)
     revision: int = 0
     stated: int = -1
+    absence: float | None = None
 
 
 @dataclass(frozen=True)
@@ -116,22 +122,24 @@ class Records:
     def map(self, identifier: str) -> MapRecord | None:
         """A map, or None."""
         rows = self._all(
-            "SELECT id, name, created, area, options, changed, left_out, revision, stated"
+            "SELECT id, name, created, area, options, changed, left_out, revision, stated, absence"
             " FROM map WHERE id = ?",
             identifier,
         )
         if not rows:
             return None
-        i, name, created, area, options, changed, left_out, revision, stated = rows[0]
+        i, name, created, area, options, changed, left_out, revision, stated, absence = rows[0]
         return MapRecord(
             i, name, created, json.loads(area), json.loads(options), changed,
-            Counter(json.loads(left_out)), revision, stated,
+            Counter(json.loads(left_out)), revision, stated, absence,
         )  # fmt: skip
 
     def landmarks(self, identifier: str) -> Iterator[tuple[str, dict[str, Any]]]:
         """The landmarks of a map: IRI of their feature, and everything else."""
         columns = "feature, id, x, y, confidence, time, agent, count, weight"
-        for row in self._all(f"SELECT {columns} FROM landmark WHERE map = ?", identifier):
+        for row in self._all(
+            f"SELECT {columns} FROM landmark WHERE map = ? ORDER BY number", identifier
+        ):
             yield row[0], dict(zip(columns.split(", ")[1:], row[1:], strict=True))
 
     def names(self, identifier: str) -> dict[Name, str]:
@@ -159,16 +167,17 @@ class Records:
         )
         return [Override(*row) for row in rows]
 
-    def add(self, record: MapRecord, landmarks: Iterable[tuple[str, Landmark]]) -> None:
-        """Add a map with its first landmarks, each after the IRI of its feature."""
+    def add(self, record: MapRecord, landmarks: Iterable[Row]) -> None:
+        """Add a map with its first landmarks."""
         with self._transaction() as database:
             database.execute(
-                "INSERT INTO map (id, name, created, area, options, changed, left_out, revision)"
-                " VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
+                "INSERT INTO map"
+                " (id, name, created, area, options, changed, left_out, revision, absence)"
+                " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
                 (
                     record.id, record.name, record.created, json.dumps(record.area),
                     json.dumps(record.options), record.changed, json.dumps(record.left_out),
-                    record.revision,
+                    record.revision, record.absence,
                 ),
             )  # fmt: skip
             _put(database, record.id, landmarks)
@@ -181,7 +190,7 @@ class Records:
     def take(
         self,
         record: MapRecord,
-        landmarks: Iterable[tuple[str, Landmark]],
+        landmarks: Iterable[Row],
         names: Iterable[tuple[Name, str]],
         batches: Iterable[tuple[str, str, dict[str, Any]]],
     ) -> None:
@@ -189,7 +198,7 @@ class Records:
 
         Args:
             record: the map with its new revision.
-            landmarks: those that changed, each after the IRI of its feature.
+            landmarks: those that changed.
             names: what agents call them.
             batches: id, digest and result of each.
         """
@@ -208,8 +217,8 @@ class Records:
                 ),
             )
             database.execute(
-                "UPDATE map SET revision = ?, changed = ?, left_out = ? WHERE id = ?",
-                (record.revision, record.changed, json.dumps(record.left_out), i),
+                "UPDATE map SET revision = ?, changed = ?, left_out = ?, absence = ? WHERE id = ?",
+                (record.revision, record.changed, json.dumps(record.left_out), record.absence, i),
             )
 
     def keep_override(self, record: MapRecord, override: Override) -> None:
@@ -254,13 +263,11 @@ class Records:
             raise StoreError(f"the records cannot be read or written: {error}") from error
 
 
-def _put(
-    database: sqlite3.Connection, identifier: str, landmarks: Iterable[tuple[str, Landmark]]
-) -> None:
+def _put(database: sqlite3.Connection, identifier: str, landmarks: Iterable[Row]) -> None:
     database.executemany(
-        "INSERT OR REPLACE INTO landmark VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+        "INSERT OR REPLACE INTO landmark VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         (
-            (identifier, m.id, iri, m.x, m.y, m.confidence, m.time, m.agent, m.count, m.weight)
-            for iri, m in landmarks
+            (identifier, m.id, iri, m.x, m.y, m.confidence, m.time, m.agent, m.count, m.weight, n)
+            for n, iri, m in landmarks
         ),
     )

@@ -24,8 +24,7 @@ from symboslam.service.maps.events import Events
 from symboslam.service.maps.observations import Observations
 from symboslam.service.maps.records import MapRecord, Override, Records
 from symboslam.service.maps.statements import GRAPHS, Statements
-from symboslam.service.store._base import BusyError, Document, Store
-from symboslam.service.vocabulary import N_TRIPLES
+from symboslam.service.store._base import BusyError, Store
 
 T = TypeVar("T")
 MOST_WAITING = 256
@@ -104,6 +103,14 @@ class RunningMap:
         """Make the store say what the records say, whatever it said before."""
         async with self._lock:
             await self._state()
+
+    async def remember(self) -> None:
+        """Know what the store says of a map that was opened."""
+        async with self._lock:
+            if self.record.stated == self.record.revision:
+                overrides = await asyncio.to_thread(self._records.overrides, self.record.id)
+                ended = datetime.fromisoformat(self.record.changed)
+                await asyncio.to_thread(self._statements.everything, ended, overrides)
 
     async def take(self, batch: str, digest: str, observations: Observations) -> dict[str, Any]:
         """Take a batch; it can be seen by SPARQL when this returns.
@@ -193,9 +200,14 @@ class RunningMap:
         self.live.report = report_of(record)
         change = self.live.catch_up() or Change({})
         features = self.knowledge.features
+        record = replace(record, absence=self.live.absence)
         self._records.take(
             record,
-            ((features[m.feature].iri, m) for _, m in change.landmarks.values() if m is not None),
+            (
+                (self.live.table.number(m.id), features[m.feature].iri, m)
+                for _, m in change.landmarks.values()
+                if m is not None
+            ),
             names.items(),
             ((batch, digest, result) for batch, (digest, result) in taken.items()),
         )
@@ -241,9 +253,7 @@ class RunningMap:
         overrides = await asyncio.to_thread(self._records.overrides, self.record.id)
         found = await asyncio.to_thread(self._statements.everything, ended, overrides)
         for name in GRAPHS:
-            iri = f"{self._statements.base}{name}"
-            document = Document(N_TRIPLES, found[name].encode(), self._statements.base)
-            await self._store.replace_graph(iri, [document])
+            await self._store.fill_graph(f"{self._statements.base}{name}", found[name])
         await self._stated()
 
     async def _patch(self, removed: str, added: str) -> None:

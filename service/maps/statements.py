@@ -24,6 +24,8 @@ GRAPHS = ("landmarks", "segments", "terms", "overrides", "provenance")
 """Named graphs below a map's base, in the order in which a new map is written."""
 Lines = frozenset[str]
 NONE: Lines = frozenset()
+_MOST_LANDMARKS = 5000
+"""Landmarks whose statements are remembered, because what was seen just now is seen again."""
 
 
 class Statements:
@@ -38,20 +40,23 @@ class Statements:
     def __init__(self, live: LiveMap, base: str, reasons: int) -> None:
         self._live, self.base, self._options = live, base, WriteOptions(reasons)
         self._syntax = Skolemised(base, {})
+        self._landmarks: dict[str, Lines] = {}
         self._segments: dict[str, Lines] = {}
         self._terms = self._provenance = NONE
         self._mentioned: dict[str, str] = {}
+        self._features: set[int] = set()
         self._agents: set[str] = set()
         self._overrides: dict[str, list[Override]] = {}
 
     def everything(self, ended: datetime, overrides: Iterable[Override]) -> dict[str, str]:
         """All statements as N-Triples by the name of their graph, whatever was stated before."""
-        self._segments, self._terms, self._provenance = {}, NONE, NONE
-        self._overrides = {}
+        self._landmarks, self._segments, self._overrides = {}, {}, {}
+        self._terms = self._provenance = NONE
         for override in overrides:
             self._overrides.setdefault(override.segment, []).append(override)
         rows = self._live.table.rows().tolist()
         landmarks = [self._live.table[row] for row in rows]
+        self._features = {each.feature for each in landmarks}
         self._agents = {each.agent for each in landmarks if each.agent}
         whole = self._live.environment_map()
         content = Content(whole, self._options.reasons)
@@ -72,35 +77,39 @@ class Statements:
 
     def change(self, change: Change, ended: datetime) -> tuple[str, str]:
         """The statements that a change takes back, and those that it adds."""
-        before, after = (
-            [each for each in side if each is not None]
-            for side in zip(*change.landmarks.values(), strict=True)
-        )
-        removed, added = self._of_landmarks(before), self._of_landmarks(after)
+        after = [each for _, each in change.landmarks.values() if each is not None]
+        removed, added = self._of_landmarks(change)
         self._agents.update(each.agent for each in after if each.agent)
         told = change.changed or self._live.described(after)
         content = Content(told, self._options.reasons)
         records = Records(content, self._syntax)
         for name in change.gone:
-            removed += self._segments.pop(name)
-            added += self._snapshots(name)
+            removed |= self._segments.pop(name)
+            added |= self._snapshots(name)
         for name, lines in self._by_segment(records).items():
-            known = self._segments.get(name)
-            removed += known if known is not None else self._snapshots(name)
-            added += lines
+            removed |= self._segments.get(name) or self._snapshots(name)
+            added |= lines
             self._segments[name] = lines
-        content.mentioned.update(self._mentioned)
-        self._mentioned = content.mentioned
-        seen = Records(content, self._syntax)
-        new = self._lines(terms(seen), "terms") - self._terms
-        self._terms |= new
+        added |= self._new_terms(content, after)
         lineage = self._lines(
             provenance(records, ended, (len(self._live.table), sorted(self._agents))), "provenance"
         )
-        removed += self._provenance
-        added += [*new, *lineage]
+        removed |= self._provenance
+        added |= lineage
         self._provenance = lineage
-        return "".join(removed), "".join(added)
+        return "".join(removed - added), "".join(added - removed)
+
+    def _new_terms(self, content: Content, landmarks: Sequence[Landmark]) -> Lines:
+        """What is to be said of features that occur for the first time."""
+        features = {each.feature for each in landmarks}
+        if features <= self._features and content.mentioned.keys() <= self._mentioned.keys():
+            return NONE
+        self._features |= features
+        content.mentioned.update(self._mentioned)
+        self._mentioned = content.mentioned
+        new = self._lines(terms(Records(content, self._syntax)), "terms") - self._terms
+        self._terms |= new
+        return new
 
     def override(self, override: Override) -> tuple[str, str]:
         """An operator's statement, made or taken back: statements to take back and to add."""
@@ -114,9 +123,33 @@ class Statements:
         """What is stated of a segment now, to be kept with an override of it."""
         return "".join(sorted(self._segments.get(name, NONE)))
 
-    def _of_landmarks(self, landmarks: Sequence[Landmark]) -> list[str]:
+    def _of_landmarks(self, change: Change) -> tuple[set[str], set[str]]:
+        """What was stated of the landmarks that changed, and what is to be stated."""
+        known = self._landmarks
+        unknown = [
+            before
+            for name, (before, _) in change.landmarks.items()
+            if before is not None and name not in known
+        ]
+        known.update(self._by_landmark(unknown))
+        removed = {line for name in change.landmarks for line in known.pop(name, NONE)}
+        new = self._by_landmark([each for _, each in change.landmarks.values() if each is not None])
+        known.update(new)  # at the end: what was changed last is forgotten last
+        while len(known) > _MOST_LANDMARKS:
+            del known[next(iter(known))]
+        return removed, {line for lines in new.values() for line in lines}
+
+    def _by_landmark(self, landmarks: Sequence[Landmark]) -> dict[str, Lines]:
+        """Landmark -> its statements and those about its observation."""
+        if not landmarks:
+            return {}
         records = Records(Content(self._live.described(landmarks)), self._syntax)
-        return self._text(records.landmarks(), "landmarks").splitlines(keepends=True)
+        graph = self._graph("landmarks")
+        texts = [self._syntax.statements(graph, s, p) for s, p in records.landmarks()]
+        return {
+            each.id: frozenset((texts[2 * i] + texts[2 * i + 1]).splitlines(keepends=True))
+            for i, each in enumerate(landmarks)
+        }
 
     def _by_segment(self, records: Records) -> dict[str, Lines]:
         """Segment -> its statements and those about its classification."""
@@ -136,12 +169,12 @@ class Statements:
             if segment not in self._segments:
                 yield from self._snapshots(segment)
 
-    def _snapshots(self, segment: str) -> list[str]:
+    def _snapshots(self, segment: str) -> Lines:
         """What was stated of an overridden segment, to be stated as long as it is gone."""
         found = self._overrides.get(segment, [])
         own, other = self._graph("segments"), self._graph("overrides")
         lines = found[-1].snapshot.splitlines(keepends=True) if found else []
-        return [line.replace(f" {own} .\n", f" {other} .\n") for line in lines]
+        return frozenset(line.replace(f" {own} .\n", f" {other} .\n") for line in lines)
 
     def _of_override(self, override: Override) -> list[str]:
         s = self._syntax

@@ -221,6 +221,20 @@ class Store(ABC):
         """
 
     @abstractmethod
+    async def fill_graph(self, graph: str, text: str) -> None:
+        """Make a graph hold our own statements and nothing else, as fast as may be.
+
+        Not all or nothing: whoever calls must be able to do it again.
+
+        Args:
+            graph: its name.
+            text: N-Triples without blank nodes.
+
+        Raises:
+            StoreError: it cannot be written.
+        """
+
+    @abstractmethod
     async def drop_graph(self, graph: str | None) -> None:
         """Remove a graph, or empty the default graph.
 

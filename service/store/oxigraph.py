@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from symboslam.service.settings import Settings
 
 T = TypeVar("T")
+_MANY = 1_000_000  # bytes
 
 
 class OxigraphStore(Store):
@@ -174,6 +175,20 @@ class OxigraphStore(Store):
         """Add what the documents say to a graph."""
         triples = await asyncio.to_thread(parse_all, documents)
         return await self._write(lambda: self._insert(graph, triples))
+
+    async def fill_graph(self, graph: str, text: str) -> None:
+        """Make a graph hold our own statements, by files of their own if they are many."""
+        from pyoxigraph import RdfFormat
+
+        def write() -> None:
+            name, data = _name(graph), text.encode()
+            if self._has(graph):
+                self._open.remove_graph(name)
+            load = self._open.bulk_load if len(data) > _MANY else self._open.load
+            load(data, RdfFormat.N_TRIPLES, to_graph=name)
+            self._open.add_graph(name)
+
+        await self._write(write)
 
     async def drop_graph(self, graph: str | None) -> None:
         """Remove a graph."""

@@ -135,6 +135,10 @@ class RemoteStore(Store):
         """Add what the documents say to a graph."""
         return await self._put("POST", graph, await asyncio.to_thread(parse_all, documents))
 
+    async def fill_graph(self, graph: str, text: str) -> None:
+        """Make a graph hold our own statements."""
+        await self.replace_graph(graph, [Document("application/n-triples", text.encode(), graph)])
+
     async def drop_graph(self, graph: str | None) -> None:
         """Remove a graph."""
         if not await self.has_graph(graph):
