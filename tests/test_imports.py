@@ -29,7 +29,8 @@ CODE = ("src", "engine", "reasoning", "ontology", "service", "sim_bridge", "comp
 # Too slow to load before they are needed.
 HEAVY = {
     "fastapi", "httpx", "matplotlib", "networkx", "osmium", "owlready2", "pandas", "pydantic",
-    "pyoxigraph", "pyproj", "pyshacl", "rdflib", "scipy", "shapely", "starlette", "uvicorn",
+    "prometheus_client", "pyoxigraph", "pyproj", "pyshacl", "rdflib", "scipy", "shapely",
+    "starlette", "uvicorn",
 }  # fmt: skip
 
 
