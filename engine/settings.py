@@ -67,6 +67,8 @@ class Settings:
 
     def _between(self, name: str, low: float, high: float, open_ends: bool = False) -> None:
         value = getattr(self, name)
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            raise InputError(f"{name} is {value!r}; it must be a number")
         inside = low < value < high if open_ends else low <= value <= high
         inside = inside and math.isfinite(value)
         if not inside:

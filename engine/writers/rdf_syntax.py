@@ -8,6 +8,7 @@ from __future__ import annotations
 import hashlib
 import re
 from abc import ABC, abstractmethod
+from functools import lru_cache
 from typing import TypeAlias
 from urllib.parse import quote
 
@@ -170,17 +171,22 @@ class NQuads(Syntax):
 
     def _node(self, subject: str, number: int) -> str:
         """A blank node of a subject."""
-        return f"_:b{hashlib.sha256(subject.encode()).hexdigest()[:12]}n{number}"
+        return f"_:b{_digest(subject)}n{number}"
 
 
 class Skolemised(NQuads):
     """N-Quads with an IRI in the place of each blank node (RDF 1.1 Concepts, 3.5).
 
-    So that stores can take back what was stated. The IRIs lie below that of the subject.
+    So that stores can take back what was stated. The IRIs lie below the map's base.
     """
 
     def _node(self, subject: str, number: int) -> str:
-        return f"{subject[:-1]}/.well-known/genid/{number}>"
+        return f"<{self.base}.well-known/genid/{_digest(subject)}-{number}>"
 
 
 _INDENT = "\n    "
+
+
+@lru_cache(maxsize=4)
+def _digest(subject: str) -> str:
+    return hashlib.sha256(subject.encode()).hexdigest()[:12]
