@@ -109,6 +109,8 @@ def listen(host: str, port: int) -> socket.socket:
 def _run(settings: Settings, listening: socket.socket, open_: bool) -> None:
     import signal
 
+    from rich.console import Console
+
     from symboslam.service import logs
     from symboslam.service.app import create_app
     from symboslam.service.server import Server
@@ -118,12 +120,18 @@ def _run(settings: Settings, listening: socket.socket, open_: bool) -> None:
     shown = f"[{host}]" if ":" in host else host
     address = settings.public_url or f"http://{shown}:{port}"
     logs.install(settings.log, settings.log_level)
+    status = Console(stderr=True).status("starting: opening the store, loading the ontology ...")
+
+    def tell() -> None:
+        status.stop()
+        _tell(settings, address, open_)
+
     app = create_app(settings, open_store(settings))
-    server = Server(app, settings, lambda: _tell(settings, address, open_))
+    server = Server(app, settings, tell)
     # uvicorn hands the signal that stopped it on to these; a stop that was asked for is no failure.
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: None)
-    with suppress(SystemExit):  # uvicorn exits if it does not start
+    with status, suppress(SystemExit):  # uvicorn exits if it does not start
         server.run([listening])
     if not server.started:
         raise getattr(app.state, "failure", None) or RuntimeError("the service did not start")
@@ -134,8 +142,10 @@ def _tell(settings: Settings, address: str, open_: bool) -> None:
     import webbrowser
 
     print(f"SymboSLAM serves {settings.store or settings.data}")
-    print(f"  SPARQL   {address}/sparql")
-    print(f"  graphs   {address}/graphs")
+    print(f"  query page  {address}/query")
+    print(f"  SPARQL      {address}/sparql")
+    print(f"  graphs      {address}/graphs")
+    print(f"  maps        {address}/v1/maps")
     if settings.read_only:
         print("  read-only")
     elif settings.admin_token is None:
