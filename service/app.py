@@ -55,7 +55,9 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
                 if settings.bundled_ontology:
                     await seed(opened)
                 records = Records(open_database(settings.data))
-                app.state.maps = Maps(records, opened, settings.data / "ontologies")
+                app.state.maps = Maps(
+                    records, opened, settings.data / "ontologies", app.state.metrics
+                )
                 app.state.jobs = Jobs(app.state.maps, settings.data / "jobs")
                 await app.state.maps.start()
             except StoreError as error:

@@ -49,6 +49,17 @@ class Metrics:
             "symboslam_http_request_seconds", "Time from a request to the end of its response.",
             ("route", "method"), buckets=_SECONDS, registry=self.registry,
         )  # fmt: skip
+        self._batches = Counter(
+            "symboslam_batches", "Batches of observations taken.", registry=self.registry
+        )
+        self._observations = Counter(
+            "symboslam_observations", "Observations in them.", registry=self.registry
+        )
+        self._ingest = Histogram(
+            "symboslam_ingest_seconds",
+            "From batches that are taken together to the store that says what they changed.",
+            buckets=_SECONDS, registry=self.registry,
+        )  # fmt: skip
         self.running = Gauge(
             "symboslam_http_requests_running", "Requests at this moment.", registry=self.registry
         )
@@ -61,6 +72,12 @@ class Metrics:
     def watch(self, store: Store) -> None:
         """Show what a store does."""
         self.registry.register(_StoreCollector(store))
+
+    def taken(self, batches: int, observations: int, seconds: float) -> None:
+        """Count batches of observations that were merged and classified together."""
+        self._batches.inc(batches)
+        self._observations.inc(observations)
+        self._ingest.observe(seconds)
 
     def observe(self, route: str, method: str, status: int, seconds: float) -> None:
         """Count a request that was answered.

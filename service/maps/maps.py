@@ -26,6 +26,7 @@ from symboslam.reasoning.knowledge import Knowledge
 from symboslam.service.maps.records import MapRecord, Records
 from symboslam.service.maps.running import RunningMap, add_left_out, report_of
 from symboslam.service.maps.statements import GRAPHS, Statements
+from symboslam.service.metrics import Metrics
 from symboslam.service.store._base import MissingGraphError, Store
 from symboslam.service.vocabulary import N_TRIPLES
 
@@ -41,10 +42,12 @@ class Maps:
         records: where they are kept.
         store: where they are stated.
         ontologies: folder for the ontologies that maps use, taken from the store.
+        metrics: where batches are counted.
     """
 
-    def __init__(self, records: Records, store: Store, ontologies: Path) -> None:
+    def __init__(self, records: Records, store: Store, ontologies: Path, metrics: Metrics) -> None:
         self.records, self._store, self._ontologies = records, store, ontologies
+        self._metrics = metrics
         self._running: dict[str, RunningMap] = {}
         self._knowledge: dict[str, Knowledge] = {}
         self._opening: dict[str, asyncio.Lock] = {}
@@ -213,6 +216,7 @@ class Maps:
             record, live, knowledge,
             Statements(live, base_of(record.id), options["reasons"]),
             Sightings(live.table, options["merge_radius"], names), self.records, self._store,
+            self._metrics,
         )  # fmt: skip
 
 

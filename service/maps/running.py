@@ -13,6 +13,7 @@ from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
+from time import perf_counter
 from typing import Any, TypeVar
 
 from symboslam.engine.environment_map import EnvironmentMap
@@ -24,6 +25,7 @@ from symboslam.service.maps.events import Events
 from symboslam.service.maps.observations import Observations
 from symboslam.service.maps.records import MapRecord, Override, Records
 from symboslam.service.maps.statements import GRAPHS, Statements
+from symboslam.service.metrics import Metrics
 from symboslam.service.store._base import BusyError, Store
 
 T = TypeVar("T")
@@ -65,17 +67,18 @@ class RunningMap:
         sightings: merges observations into its landmarks.
         records: where everything is kept.
         store: where it is stated.
+        metrics: where batches are counted.
     """
 
     def __init__(
         self, record: MapRecord, live: LiveMap, knowledge: Knowledge, statements: Statements,
-        sightings: Sightings, records: Records, store: Store,
+        sightings: Sightings, records: Records, store: Store, metrics: Metrics,
     ) -> None:  # fmt: skip
         self.record, self.live, self.knowledge = record, live, knowledge
         self.events = Events(record.revision)
         self.broken = False
         self._statements, self._sightings = statements, sightings
-        self._records, self._store = records, store
+        self._records, self._store, self._metrics = records, store, metrics
         self._lock = asyncio.Lock()
         self._waiting: list[Waiting] = []
         self._worker: asyncio.Task[None] | None = None
@@ -163,6 +166,7 @@ class RunningMap:
 
     async def _take(self, group: list[Waiting]) -> None:
         await self._ready()
+        start = perf_counter()
         try:
             results, change = await asyncio.to_thread(self._merge, group)
         except BaseException:
@@ -172,6 +176,8 @@ class RunningMap:
             ended = datetime.fromisoformat(self.record.changed)
             await self._patch(*await asyncio.to_thread(self._statements.change, change, ended))
             self.events.publish(self.record.revision, told(change))
+            observations = sum(each.observations.received for each in group)
+            self._metrics.taken(len(group), observations, perf_counter() - start)
         for each in group:
             result = results[each.id, each.digest]
             if isinstance(result, BatchConflictError):

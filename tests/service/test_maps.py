@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -477,3 +480,50 @@ def test_one_s_own_ontology(shared: Service) -> None:
     send(shared, response.json()["id"], at("Stove", 2, 2), at("Bed", 10, 10))
     features = get(shared, f"{response.json()['id']}/segments")["features"]
     assert {f["properties"]["environment"] for f in features} >= {"Kitchen", "Bedroom"}
+
+
+def test_pushed_twice_is_pushed_once(shared: Service, town: dict[str, Any], tmp_path: Path) -> None:
+    file = tmp_path / "town.geojson"
+    file.write_text(json.dumps(town))
+    environment = {**os.environ, "SYMBOSLAM_TOKEN": ADMIN["Authorization"].split()[1]}
+
+    def run(*arguments: str) -> str:
+        done = subprocess.run(
+            [sys.executable, "-m", "symboslam", *arguments],
+            env=environment, capture_output=True, text=True, timeout=120,
+        )  # fmt: skip
+        assert done.returncode == 0, done.stderr
+        return done.stdout
+
+    told = run("push", str(file), "--to", shared.url, "--new", "pushed")
+    identifier = next(m["id"] for m in get(shared, "") if m["name"] == "pushed")
+    assert identifier in told
+    before = get(shared, identifier)
+    run("push", str(file), "--to", shared.url, "--map", identifier)
+    assert get(shared, identifier) == before
+    landmarks = get(shared, f"{identifier}/landmarks")["features"]
+    assert sum(f["properties"]["observations"] for f in landmarks) == len(town["features"])
+    answer = run("query", "--example", "maps", "--url", shared.url, "--format", "csv")
+    assert identifier in answer
+
+
+def test_maps_in_a_store_elsewhere(fuseki_url: str, tmp_path: Path) -> None:
+    settings = {
+        "data": tmp_path, "admin_token": ADMIN["Authorization"].split()[1], "workers": 1,
+        "bundled_ontology": False, "store": fuseki_url,
+    }  # fmt: skip
+    with running(**settings) as service:
+        identifier = make(service, segmentation={"cells": 6})
+        for number in range(3):
+            sent = send(service, identifier, at("House", 100 + 150 * number, 300), key=str(number))
+            assert sent.status_code == 200, sent.text
+        info = get(service, identifier)
+        landmarks = lines_of(service, identifier, "landmarks")
+        assert validate_map(graph_of(service, identifier, tmp_path)).conforms
+    with running(**settings) as service:
+        assert get(service, identifier) == info
+        again = send(service, identifier, at("House", 400, 300), key="2")
+        assert again.json()["revision"] == 3
+        assert lines_of(service, identifier, "landmarks") == landmarks
+        send(service, identifier, at("House", 401, 300))
+        assert len(lines_of(service, identifier, "landmarks")) == len(landmarks)
