@@ -93,6 +93,8 @@ def lines_of(service: Service, identifier: str, name: str) -> set[str]:
     response = service.client.get(
         "/graphs", params={"graph": base + name}, headers={"Accept": "application/n-triples"}
     )
+    if response.status_code == 404 and name == "overrides":
+        return set()  # some stores know no empty graph
     assert response.status_code == 200, response.text
     return set(response.text.splitlines(keepends=True))
 
