@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -121,12 +121,16 @@ def evidence_of(
     grid: Grid,
     settings: Settings,
     denied: Floats | None = None,
+    near: Sequence[Floats] | None = None,
 ) -> Evidence:
-    """The evidence that the settings ask for; ``denied`` as in ``FieldEvidence``."""
+    """The evidence that the settings ask for.
+
+    ``denied`` as in ``FieldEvidence``, ``near`` as in ``PairEvidence``, where they are known.
+    """
     proximity = proximity_of(knowledge, scheme, settings)
     weight = proximity[landmarks.feature] * landmarks.confidence[:, None]
     if settings.evidence == "pairs":
-        return PairEvidence(landmarks, weight, grid, settings)
+        return PairEvidence(landmarks, weight, grid, settings, near)
     site = np.array([f.site for f in knowledge.features])[landmarks.feature]
     return FieldEvidence(
         landmarks, weight, grid, settings, bandwidth_of(knowledge, scheme, grid, settings), site,

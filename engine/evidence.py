@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,7 +65,9 @@ def pair_evidence(
     return own.sum(0) + shared.sum(0), c, n
 
 
-def _parts(xy: Floats, weight: Floats, diagonal: float, a: float) -> tuple[Floats, Floats, Floats]:
+def _parts(
+    xy: Floats, weight: Floats, diagonal: float, a: float, near: Floats | None = None
+) -> tuple[Floats, Floats, Floats]:
     """Each landmark's part of the second and of the first term of P~, both (z, K); and n (K,)."""
     z, k = weight.shape
     if z < 2:
@@ -73,7 +75,7 @@ def _parts(xy: Floats, weight: Floats, diagonal: float, a: float) -> tuple[Float
     member = (weight > 0).astype(np.float64)
     size = member.sum(0)
     n = size * (size - 1)
-    near = nearness(xy, member, diagonal) * member
+    near = (nearness(xy, member, diagonal) if near is None else near) * member
     shared = a * np.divide(weight * near, n, out=np.zeros((z, k)), where=n > 0)
     own = (1 - a) * member * np.maximum(size - 1, 0) / (z * (z - 1))
     return own, shared, n
@@ -87,11 +89,19 @@ class PairEvidence(Evidence):
         weight: (n, K) SP(e, x) * f_x of each landmark.
         grid: the nested cells.
         settings: a, threshold, min_landmarks.
+        near: depth -> (n, K) what `nearness` gives within the cells of that depth, where that is
+            known already.
     """
 
     def __init__(
-        self, landmarks: LandmarkMap, weight: Floats, grid: Grid, settings: Settings
+        self,
+        landmarks: LandmarkMap,
+        weight: Floats,
+        grid: Grid,
+        settings: Settings,
+        near: Sequence[Floats] | None = None,
     ) -> None:
+        self._near = near
         self._landmarks, self._weight, self._grid, self._settings = (
             landmarks,
             weight,
@@ -121,14 +131,21 @@ class PairEvidence(Evidence):
     def of(self, cells: Cells) -> Floats:
         """(m, K) P~; one landmark alone makes no pair and so gives none."""
         evidence = np.zeros((len(cells), self._weight.shape[1]))
-        xy = self._landmarks.xy
-        diagonals = self._diagonals(cells)
-        for i, inside in enumerate(self.members(cells)):
-            if len(inside) > 1:
-                evidence[i] = pair_evidence(
-                    xy[inside], self._weight[inside], diagonals[i], self._settings.a
-                )[0]
+        for i, (_, own, shared) in enumerate(self._of_each(cells)):
+            evidence[i] = own.sum(0) + shared.sum(0)
         return evidence
+
+    def _of_each(self, cells: Cells) -> Iterator[tuple[NDArray[np.int64], Floats, Floats]]:
+        """The landmarks in each cell, and each one's part of the two terms of P~."""
+        xy, weight = self._landmarks.xy, self._weight
+        for inside, diagonal, depth in zip(
+            self.members(cells), self._diagonals(cells), cells.depth.tolist(), strict=True
+        ):
+            near = None if self._near is None else self._near[depth][inside]
+            own, shared, _ = _parts(
+                xy[inside], weight[inside], float(diagonal), self._settings.a, near
+            )
+            yield inside, own, shared
 
     def settled(self, cells: Cells, evidence: Floats) -> NDArray[np.bool_]:
         """A cell with too few landmarks, or whose largest P reaches the threshold."""
@@ -139,9 +156,5 @@ class PairEvidence(Evidence):
 
     def contributions(self, cells: Cells) -> Iterator[Contributions]:
         """Each landmark's share of the inferences (own) and of C (pairs)."""
-        for inside, diagonal in zip(self.members(cells), self._diagonals(cells), strict=True):
-            weight = self._weight[inside]
-            own, shared, _ = _parts(
-                self._landmarks.xy[inside], weight, float(diagonal), self._settings.a
-            )
-            yield Contributions(inside, own, shared, np.zeros(weight.shape[1]))
+        for inside, own, shared in self._of_each(cells):
+            yield Contributions(inside, own, shared, np.zeros(own.shape[1]))

@@ -30,6 +30,7 @@ from symboslam.engine.environment_map import EnvironmentMap
 from symboslam.engine.field import CLOSE, FieldEvidence, crowding_share, dissimilarity
 from symboslam.engine.grid import Cells, Grid
 from symboslam.engine.landmarks import LandmarkMap, ReadReport
+from symboslam.engine.live_pairs import LivePairs
 from symboslam.engine.neighbourhood import Mask, covered, grown, reached, reaching
 from symboslam.engine.segmentation import Segments, cut, seen_cells, sums
 from symboslam.engine.settings import settings_of
@@ -112,6 +113,7 @@ class LiveMap:
             self.absence = in_force or crowding_share(self._field)
         self._settings = replace(settings, bandwidth=bandwidth, absence=self.absence)
         self._roots: dict[tuple[int, int], Segments] = {}
+        self._pairs = LivePairs(grid, proximity) if settings.evidence == "pairs" else None
         self.table = LandmarkTable(knowledge, grid, group)
         self._update(np.ones((grid.cells, grid.cells), bool), Change({}))
 
@@ -170,14 +172,17 @@ class LiveMap:
     def catch_up(self) -> Change | None:
         """Classify anew what was touched since the last call; None if nothing was."""
         landmarks, moved = {}, []
-        for identifier, before in self.table.pop_changes().items():
-            row = self.table.row_of(identifier)
-            after = None if row is None else self.table[row]
+        for identifier, (row, before) in self.table.pop_changes().items():
+            after = self.table.find(identifier)
             if before == after:
                 continue
             landmarks[identifier] = before, after
             if before is None or after is None or _differ(before, after):
                 moved += [each for each in (before, after) if each is not None]
+                if self._pairs is not None and before is not None:
+                    self._pairs.leave(row)
+                if self._pairs is not None and after is not None:
+                    self._pairs.come(self.table.number(identifier), after)
         if not landmarks:
             return None
         change = Change(landmarks)
@@ -190,7 +195,7 @@ class LiveMap:
         own[self._grid.finest_of(x, y)] = True
         for cell in np.flatnonzero(own).tolist():
             self._inside.flat[cell] = self.table.count(cell)
-        if self._settings.evidence == "pairs":
+        if self._pairs is not None:
             return self._update(own, change)
         near = self._near(x, y, own)
         self._contradict(near)
@@ -280,17 +285,19 @@ class LiveMap:
 
     def _evidence(self, cells: Mask) -> tuple[LandmarkMap, Evidence]:
         """The evidence in some cells, and the landmarks that it is from."""
-        if self._settings.evidence == "pairs":
+        near = None
+        if self._pairs is not None:
             roots = covered(self._grid, _cells(self._roots_in(cells)))
             rows = self.table.within(np.flatnonzero(roots).tolist())
+            near = list(self._pairs.near(rows))
         else:
             rows = reaching(self.table, self._grid, cells, self._widths)
-        landmarks = self.table.take(rows, self._like)
         denied = np.zeros((len(rows), self._denied.shape[1]))
-        if self._settings.dissimilarity and self._settings.evidence == "field":
+        if self._settings.dissimilarity and self._pairs is None:
             denied = self._denied[rows]
+        landmarks = self.table.take(rows, self._like)
         return landmarks, evidence_of(
-            landmarks, self.knowledge, self._scheme, self._grid, self._settings, denied
+            landmarks, self.knowledge, self._scheme, self._grid, self._settings, denied, near
         )
 
     def _density(self) -> Density:

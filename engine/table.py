@@ -67,7 +67,7 @@ class LandmarkTable:
         self._cell: list[int] = []
         self._group = [0] * len(self._static) if group is None else group.tolist()
         self._within: list[dict[int, set[int]]] = [{} for _ in range(max(self._group) + 1)]
-        self._before: dict[str, Landmark | None] = {}
+        self._before: dict[str, tuple[int, Landmark | None]] = {}
 
     def __len__(self) -> int:
         return len(self._rows)
@@ -80,6 +80,11 @@ class LandmarkTable:
         if found is None:
             raise IndexError(f"there is no landmark in row {row}")
         return found
+
+    def find(self, identifier: str) -> Landmark | None:
+        """A landmark, or None."""
+        row = self._rows.get(identifier)
+        return None if row is None else self._landmarks[row]
 
     def row_of(self, identifier: str) -> int | None:
         """Row of a landmark, or None."""
@@ -96,12 +101,13 @@ class LandmarkTable:
     def put(self, landmark: Landmark) -> int:
         """Add a landmark, or change the one with its id; its row."""
         row = self._rows.get(landmark.id)
-        self._before.setdefault(landmark.id, None if row is None else self._landmarks[row])
+        before = None if row is None else self._landmarks[row]
         if row is None:
             row = self._new_row()
             self._rows[landmark.id] = row
         else:
             self._leave(row)
+        self._before.setdefault(landmark.id, (row, before))
         self._landmarks[row] = landmark
         self._feature[row] = landmark.feature
         self._numbers[row] = landmark.x, landmark.y, landmark.confidence
@@ -115,13 +121,13 @@ class LandmarkTable:
         """Remove a landmark; one that is not there is removed already."""
         row = self._rows.pop(identifier, None)
         if row is not None:
-            self._before.setdefault(identifier, self._landmarks[row])
+            self._before.setdefault(identifier, (row, self._landmarks[row]))
             self._leave(row)
             self._landmarks[row] = None
             self._free.append(row)
 
-    def pop_changes(self) -> dict[str, Landmark | None]:
-        """What changed since the last call: id -> the landmark as it was, None if it is new."""
+    def pop_changes(self) -> dict[str, tuple[int, Landmark | None]]:
+        """What changed since the last call: id -> row, and the landmark as it was, if it was."""
         found, self._before = self._before, {}
         return found
 
