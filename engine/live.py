@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from symboslam.engine._base import Evidence
@@ -27,11 +26,12 @@ from symboslam.engine.classify import (
 )
 from symboslam.engine.density import Density
 from symboslam.engine.environment_map import EnvironmentMap
-from symboslam.engine.field import CLOSE, FieldEvidence, crowding_share, dissimilarity
+from symboslam.engine.field import FieldEvidence, crowding_share
 from symboslam.engine.grid import Cells, Grid
 from symboslam.engine.landmarks import LandmarkMap, ReadReport
+from symboslam.engine.live_field import LiveField
 from symboslam.engine.live_pairs import LivePairs
-from symboslam.engine.neighbourhood import Mask, covered, grown, reached, reaching
+from symboslam.engine.neighbourhood import Mask, covered
 from symboslam.engine.segmentation import Segments, cut, seen_cells, sums
 from symboslam.engine.settings import settings_of
 from symboslam.engine.table import Landmark, LandmarkTable
@@ -97,13 +97,10 @@ class LiveMap:
         self._like, self.knowledge = area.take(np.zeros(0, np.int64)), knowledge
         self._scheme = scheme or next(iter(knowledge.schemes))
         self._grid = grid = Grid(area.bbox, settings.cells)
-        self._proximity = proximity = proximity_of(knowledge, self._scheme, settings)
-        self._denied = np.zeros((0, proximity.shape[1]))
+        proximity = proximity_of(knowledge, self._scheme, settings)
         bandwidth = bandwidth_of(knowledge, self._scheme, grid, settings)
         self._ground = ground_of(knowledge, proximity)
-        self._bandwidth = bandwidth
-        self._width = np.maximum([f.site for f in knowledge.features], bandwidth)
-        self._widths, group = np.unique(self._width, return_inverse=True)
+        width = np.maximum([f.site for f in knowledge.features], bandwidth)
         self._seen = seen_cells(grid, area.surveyed)
         self._inside = np.zeros((grid.cells, grid.cells), np.int64)
         self._field = np.zeros((grid.cells, grid.cells, proximity.shape[1]))
@@ -114,7 +111,10 @@ class LiveMap:
         self._settings = replace(settings, bandwidth=bandwidth, absence=self.absence)
         self._roots: dict[tuple[int, int], Segments] = {}
         self._pairs = LivePairs(grid, proximity) if settings.evidence == "pairs" else None
-        self.table = LandmarkTable(knowledge, grid, group)
+        self.table = LandmarkTable(knowledge, grid, np.unique(width, return_inverse=True)[1])
+        self._around = LiveField(
+            grid, self.table, proximity, width, bandwidth, settings.dissimilarity > 0
+        )
         self._update(np.ones((grid.cells, grid.cells), bool), Change({}))
 
     @property
@@ -179,9 +179,9 @@ class LiveMap:
             landmarks[identifier] = before, after
             if before is None or after is None or _differ(before, after):
                 moved += [each for each in (before, after) if each is not None]
-                if self._pairs is not None and before is not None:
+                if self._pairs and before is not None:
                     self._pairs.leave(row)
-                if self._pairs is not None and after is not None:
+                if self._pairs and after is not None:
                     self._pairs.come(self.table.number(identifier), after)
         if not landmarks:
             return None
@@ -195,54 +195,7 @@ class LiveMap:
         own[self._grid.finest_of(x, y)] = True
         for cell in np.flatnonzero(own).tolist():
             self._inside.flat[cell] = self.table.count(cell)
-        if self._pairs is not None:
-            return self._update(own, change)
-        near = self._near(x, y, own)
-        self._contradict(near)
-        around = self.table.xy(near)
-        feature = np.array([each.feature for each in moved])
-        return self._update(
-            reached(
-                self._grid,
-                np.concatenate([x, around[:, 0]]),
-                np.concatenate([y, around[:, 1]]),
-                self._width[np.concatenate([feature, self.table.feature(near)])],
-            ),
-            change,
-        )
-
-    def _near(self, x: Floats, y: Floats, cells: Mask) -> Rows:
-        """Rows of the landmarks that those at some places, in some cells, can contradict."""
-        if not self._settings.dissimilarity:
-            return np.zeros(0, np.int64)
-        rows = self._rows_around(cells, CLOSE * self._bandwidth)
-        tree = shapely.STRtree(shapely.points(x, y))
-        points = shapely.points(self.table.xy(rows))
-        near, _ = tree.query(points, predicate="dwithin", distance=CLOSE * self._bandwidth)
-        return np.asarray(rows[np.unique(near)])
-
-    def _contradict(self, rows: Rows) -> None:
-        """Work out anew what the landmarks around some rows deny them."""
-        if not len(rows):
-            return
-        around = self._rows_around(self._cells_of(rows), CLOSE * self._bandwidth)
-        weight = self._proximity[self.table.feature(around)]
-        weight = weight * self.table.confidence(around)[:, None]
-        found = dissimilarity(self.table.xy(around), weight, CLOSE * self._bandwidth)
-        if (last := int(rows[-1])) >= len(self._denied):
-            more = np.zeros((max(last + 1, 2 * len(self._denied)), weight.shape[1]))
-            more[: len(self._denied)] = self._denied
-            self._denied = more
-        self._denied[rows] = found[np.searchsorted(around, rows)]
-
-    def _cells_of(self, rows: Rows) -> Mask:
-        found = np.zeros(self._inside.shape, bool)
-        xy = self.table.xy(rows)
-        found[self._grid.finest_of(xy[:, 0], xy[:, 1])] = True
-        return found
-
-    def _rows_around(self, cells: Mask, metres: float) -> Rows:
-        return self.table.within(np.flatnonzero(grown(self._grid, cells, metres)).tolist())
+        return self._update(own if self._pairs else self._around.follow(moved), change)
 
     def _update(self, touched: Mask, change: Change) -> Change:
         """Classify anew the segments whose evidence is from cells that were touched."""
@@ -285,16 +238,14 @@ class LiveMap:
 
     def _evidence(self, cells: Mask) -> tuple[LandmarkMap, Evidence]:
         """The evidence in some cells, and the landmarks that it is from."""
-        near = None
-        if self._pairs is not None:
+        denied = near = None
+        if self._pairs:
             roots = covered(self._grid, _cells(self._roots_in(cells)))
             rows = self.table.within(np.flatnonzero(roots).tolist())
             near = list(self._pairs.near(rows))
         else:
-            rows = reaching(self.table, self._grid, cells, self._widths)
-        denied = np.zeros((len(rows), self._denied.shape[1]))
-        if self._settings.dissimilarity and self._pairs is None:
-            denied = self._denied[rows]
+            rows = self._around.rows(cells)
+            denied = self._around.denied(rows)
         landmarks = self.table.take(rows, self._like)
         return landmarks, evidence_of(
             landmarks, self.knowledge, self._scheme, self._grid, self._settings, denied, near
