@@ -128,6 +128,18 @@ class LiveMap:
         """Where the map lies, as a map without landmarks."""
         return self._like
 
+    def resume(self, absence: float) -> None:
+        """Take over the estimate of absence of a map with the same landmarks.
+
+        The estimate in force depends on how the landmarks came, because it follows in steps of
+        `DRIFT`. A map that is made of all landmarks at once has another one, and so slightly
+        other probabilities, until it takes the old one over.
+        """
+        if self._estimates and absence != self._absence:
+            self._absence = absence
+            self._settings = replace(self._settings, absence=absence)
+            self._update(np.ones_like(self._inside, dtype=bool), Change({}))
+
     def landmarks(self) -> LandmarkMap:
         """All landmarks."""
         return self.table.take(self.table.rows(), self._like)

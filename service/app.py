@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
@@ -13,7 +14,7 @@ from symboslam import __version__
 from symboslam.errors import StoreError
 from symboslam.service import health, metrics, problems, tokens_api
 from symboslam.service.auth import Authenticator, describe_public_reading
-from symboslam.service.database import open_database
+from symboslam.service.database import check_database, lock_folder, open_database
 from symboslam.service.examples import routes as examples
 from symboslam.service.lifecycle import Lifecycle
 from symboslam.service.limits import Limits, parse_rates
@@ -45,10 +46,13 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         opened = store or open_store(settings)
+        locked = None
         app.state.store = opened
         app.state.metrics.watch(opened)
         try:
             try:
+                locked = lock_folder(settings.data)
+                await asyncio.to_thread(check_database, settings.data)
                 app.state.tokens = Tokens(settings.data)
                 app.state.authenticator = Authenticator(settings, app.state.tokens)
                 await opened.start()
@@ -69,6 +73,8 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
             await opened.stop()
             if tokens := getattr(app.state, "tokens", None):
                 tokens.close()
+            if locked is not None:
+                locked.close()
 
     app = FastAPI(
         title="SymboSLAM",

@@ -19,7 +19,7 @@ _TABLES = """
 CREATE TABLE IF NOT EXISTS map (
   id TEXT PRIMARY KEY, name TEXT NOT NULL, created TEXT NOT NULL, area TEXT NOT NULL,
   options TEXT NOT NULL, left_out TEXT NOT NULL DEFAULT '{}', revision INTEGER NOT NULL DEFAULT 0,
-  changed TEXT NOT NULL, stated INTEGER NOT NULL DEFAULT -1
+  changed TEXT NOT NULL, stated INTEGER NOT NULL DEFAULT -1, absence REAL
 ) WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS landmark (
   map TEXT NOT NULL REFERENCES map ON DELETE CASCADE, id TEXT NOT NULL, feature TEXT NOT NULL,
@@ -56,6 +56,7 @@ class MapRecord:
         revision: how often it changed.
         changed: when it did last, ISO 8601.
         stated: the revision that the store is at; -1 = none.
+        absence: the estimate of absence that the store's statements were made with, if any.
     """
 
     id: str
@@ -67,6 +68,7 @@ class MapRecord:
     left_out: Counter[str] = field(default_factory=Counter)
     revision: int = 0
     stated: int = -1
+    absence: float | None = None
 
 
 @dataclass(frozen=True)
@@ -108,6 +110,9 @@ class Records:
         self._database, self._lock = database, threading.Lock()
         with self._errors():
             self._database.executescript(_TABLES)
+            columns = self._database.execute("SELECT name FROM pragma_table_info('map')")
+            if ("absence",) not in columns.fetchall():  # made before there was this column
+                self._database.execute("ALTER TABLE map ADD COLUMN absence REAL")
 
     def maps(self) -> list[str]:
         """Ids of all maps, the oldest first."""
@@ -116,16 +121,16 @@ class Records:
     def map(self, identifier: str) -> MapRecord | None:
         """A map, or None."""
         rows = self._all(
-            "SELECT id, name, created, area, options, changed, left_out, revision, stated"
-            " FROM map WHERE id = ?",
+            "SELECT id, name, created, area, options, changed, left_out, revision, stated,"
+            " absence FROM map WHERE id = ?",
             identifier,
         )
         if not rows:
             return None
-        i, name, created, area, options, changed, left_out, revision, stated = rows[0]
+        i, name, created, area, options, changed, left_out, revision, stated, absence = rows[0]
         return MapRecord(
             i, name, created, json.loads(area), json.loads(options), changed,
-            Counter(json.loads(left_out)), revision, stated,
+            Counter(json.loads(left_out)), revision, stated, absence,
         )  # fmt: skip
 
     def landmarks(self, identifier: str) -> Iterator[tuple[str, dict[str, Any]]]:
@@ -226,10 +231,13 @@ class Records:
                 (record.revision, record.changed, record.id),
             )
 
-    def stated(self, identifier: str, revision: int) -> None:
-        """Note the revision that the store is at."""
+    def stated(self, identifier: str, revision: int, absence: float | None = None) -> None:
+        """Note the revision that the store is at, and the estimate of absence behind it."""
         with self._transaction() as database:
-            database.execute("UPDATE map SET stated = ? WHERE id = ?", (revision, identifier))
+            database.execute(
+                "UPDATE map SET stated = ?, absence = ? WHERE id = ?",
+                (revision, absence, identifier),
+            )
 
     def _all(self, query: str, *values: str) -> list[tuple[Any, ...]]:
         with self._errors(), self._lock:

@@ -9,6 +9,7 @@ that, the store is made from the records when the map is next opened.
 from __future__ import annotations
 
 import asyncio
+import contextlib
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
@@ -24,7 +25,7 @@ from symboslam.service.maps.events import Events
 from symboslam.service.maps.observations import Observations
 from symboslam.service.maps.records import MapRecord, Override, Records
 from symboslam.service.maps.statements import GRAPHS, Statements
-from symboslam.service.store._base import BusyError, Document, Store
+from symboslam.service.store._base import BusyError, Document, MissingGraphError, Store
 from symboslam.service.vocabulary import N_TRIPLES
 
 T = TypeVar("T")
@@ -137,6 +138,24 @@ class RunningMap:
             )
             return override
 
+    async def remove(self) -> None:
+        """Take the map out of the store and the records; what waits for it is refused.
+
+        Were that cut short, the map would be there still, and be stated anew.
+        """
+        async with self._lock:
+            await asyncio.to_thread(self._records.stated, self.record.id, -1)
+            for name in reversed(GRAPHS):
+                with contextlib.suppress(MissingGraphError):
+                    await self._store.drop_graph(f"{self._statements.base}{name}")
+            await asyncio.to_thread(self._records.remove, self.record.id)
+        await self.stop()
+
+    async def said(self) -> dict[str, str]:
+        """What the store has to say, as N-Triples by the name of the graph; to compare with it."""
+        async with self._lock:
+            return await self._everything()
+
     async def stop(self) -> None:
         """Wait for what is being worked on, and end event streams."""
         if self._worker is not None:
@@ -236,14 +255,17 @@ class RunningMap:
         if self.record.stated != self.record.revision:
             await self._state()
 
-    async def _state(self) -> None:
+    async def _everything(self) -> dict[str, str]:
         ended = datetime.fromisoformat(self.record.changed)
         overrides = await asyncio.to_thread(self._records.overrides, self.record.id)
-        found = await asyncio.to_thread(self._statements.everything, ended, overrides)
-        for name in GRAPHS:
-            iri = f"{self._statements.base}{name}"
-            document = Document(N_TRIPLES, found[name].encode(), self._statements.base)
-            await self._store.replace_graph(iri, [document])
+        return await asyncio.to_thread(self._statements.everything, ended, overrides)
+
+    async def _state(self) -> None:
+        found = await self._everything()
+        base = self._statements.base
+        await self._store.replace_graphs(
+            {f"{base}{name}": Document(N_TRIPLES, found[name].encode(), base) for name in GRAPHS}
+        )
         await self._stated()
 
     async def _patch(self, removed: str, added: str) -> None:
@@ -251,8 +273,9 @@ class RunningMap:
         await self._stated()
 
     async def _stated(self) -> None:
-        await asyncio.to_thread(self._records.stated, self.record.id, self.record.revision)
-        self.record = replace(self.record, stated=self.record.revision)
+        revision, absence = self.record.revision, self.live.config["absence"]
+        await asyncio.to_thread(self._records.stated, self.record.id, revision, absence)
+        self.record = replace(self.record, stated=revision, absence=absence)
 
 
 UNKNOWN, OUTSIDE, OTHERS = "unknown ", "outside", "(others)"
