@@ -68,6 +68,11 @@ class Load:
     acknowledged: set[int] = field(default_factory=set)
     overrides: list[tuple[str, str]] = field(default_factory=list)
 
+    @property
+    def heard(self) -> int:
+        """How many batches were acknowledged."""
+        return sum(batch.result is not None for batch in self.batches)
+
     def feed(self, client: httpx.Client, number: int) -> None:
         """One client's next batch."""
         chance, key = self.chance, f"client-{number}-{len(self.batches)}-{time.monotonic_ns()}"
@@ -146,11 +151,14 @@ def observed(client: httpx.Client, which: str) -> int:
     return sum(each["properties"]["observations"] for each in found)
 
 
-def kills(number: int) -> Iterator[float]:
-    """How long a server is left alive: some die while they catch up with what was left."""
+def kills(number: int) -> Iterator[tuple[int, float]]:
+    """When servers are killed: after so many more batches were acknowledged, and some seconds.
+
+    Some die while they catch up with what the one before has left.
+    """
     chance = random.Random(number)
     for n in range(number):
-        yield 0.0 if n % 5 == 4 else chance.uniform(0.02, 0.8)
+        yield 0 if n % 5 == 4 else chance.randint(1, 20), chance.uniform(0.0, 0.1)
 
 
 @pytest.mark.parametrize("number", [8, pytest.param(50, marks=pytest.mark.slow)])
@@ -158,20 +166,22 @@ def test_killed_under_load(tmp_path: Path, number: int) -> None:
     data, settings = tmp_path / "data", {"rate": "none", "workers": "2"}
     with serve(data, **settings) as (process, client):
         load = Load([make_map(client, n) for n in range(3)], random.Random(number))
-    for seconds in kills(number):
+    for batches, seconds in kills(number):
         with serve(data, **settings) as (process, client):
             for which in load.maps:
                 assert half_written(client, which) == []
             stop, threads = load.run(str(client.base_url))
+            until = load.heard + batches
+            while load.heard < until and all(thread.is_alive() for thread in threads):
+                time.sleep(0.005)
             time.sleep(seconds)
+            assert all(thread.is_alive() for thread in threads)
             process.send_signal(signal.SIGKILL)
             process.wait()
             stop.set()
             for thread in threads:
                 thread.join()
-    heard = sum(batch.result is not None for batch in load.batches)
-    assert heard > number
-    assert heard < len(load.batches), "nothing was cut short: this shows little"
+    assert number < load.heard < len(load.batches), "nothing was cut short: this shows little"
     with serve(data, **settings) as (process, client):
         before = {which: observed(client, which) for which in load.maps}
         info = {which: client.get(f"/v1/maps/{which}").json() for which in load.maps}
