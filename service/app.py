@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import shutil
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
@@ -12,8 +13,9 @@ from starlette.middleware.gzip import GZipMiddleware
 
 from symboslam import __version__
 from symboslam.errors import StoreError
-from symboslam.service import health, metrics, problems, tokens_api
+from symboslam.service import backup_api, health, metrics, problems, tokens_api
 from symboslam.service.auth import Authenticator, describe_public_reading
+from symboslam.service.backup import STAGING
 from symboslam.service.database import check_database, lock_folder, open_database
 from symboslam.service.examples import routes as examples
 from symboslam.service.lifecycle import Lifecycle
@@ -52,6 +54,7 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
         try:
             try:
                 locked = lock_folder(settings.data)
+                await asyncio.to_thread(shutil.rmtree, settings.data / STAGING, True)
                 await asyncio.to_thread(check_database, settings.data)
                 app.state.tokens = Tokens(settings.data)
                 app.state.authenticator = Authenticator(settings, app.state.tokens)
@@ -87,6 +90,7 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
     )
     app.state.settings = settings
     app.state.lifecycle = Lifecycle()
+    app.state.backing_up = asyncio.Lock()
     app.state.limits = _limits(settings)
     app.state.metrics = metrics.Metrics()
     problems.install(app)
@@ -115,6 +119,7 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
     for router in (
         health.router, metrics.router, tokens_api.router, protocol.router, graph_store.router,
         routes.router, segments.router, jobs.router, examples.router, page.router,
+        backup_api.router,
     ):  # fmt: skip
         app.include_router(router)
     return app

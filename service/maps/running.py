@@ -132,7 +132,8 @@ class RunningMap:
             record = self._next()
             await asyncio.to_thread(self._records.keep_override, record, override)
             self.record = record
-            await self._patch(*self._statements.override(override))
+            ended = datetime.fromisoformat(record.changed)
+            await self._patch(*await asyncio.to_thread(self._statements.override, override, ended))
             self.events.publish(
                 record.revision, {"override": override.id, "segment": override.segment}
             )

@@ -56,7 +56,11 @@ def half_written(client: httpx.Client, which: str, side: float = 900.0) -> list[
     if known != set(sums):
         found.append(f"{len(known)} segments of a type, {len(sums)} classified")
     found += [f"{s}: distributions {d}" for s, d in distributions.items() if len(d) != 1]
-    found += [f"{s}: sum {sum(p)}" for s, p in sums.items() if abs(sum(p) - 1) > _CLOSE]
+    found += [
+        f"{s}: sum {sum(p, Decimal(0))}"
+        for s, p in sums.items()
+        if abs(sum(p, Decimal(-1))) > _CLOSE
+    ]
     return found
 
 
@@ -72,9 +76,15 @@ def graphs_of(client: httpx.Client, which: str) -> dict[str, set[str]]:
     return found
 
 
-def same(one: dict[str, set[str]], two: dict[str, set[str]]) -> bool:
-    """Whether graphs say the same, up to the last digit of a decimal number."""
-    return not any(differing(one[name], two[name]) for name in GRAPHS)
+def same(anew: dict[str, set[str]], kept: dict[str, set[str]]) -> bool:
+    """Whether graphs say the same, up to the last digit of a decimal number.
+
+    Args:
+        anew: made anew of the records.
+        kept: kept up to date; labels that are not needed any more may have stayed.
+    """
+    kept = {**kept, "terms": kept["terms"] & anew["terms"]}
+    return not any(differing(anew[name], kept[name]) for name in GRAPHS)
 
 
 def differing(one: set[str], two: set[str]) -> list[str]:
