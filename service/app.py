@@ -47,22 +47,23 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        if store is None:
+            await asyncio.to_thread(check_database, settings.data)
         opened = store or open_store(settings)
-        locked = None
+        locked = database = None
         app.state.store = opened
         app.state.metrics.watch(opened)
         try:
             try:
                 locked = lock_folder(settings.data)
                 await asyncio.to_thread(shutil.rmtree, settings.data / STAGING, True)
-                await asyncio.to_thread(check_database, settings.data)
                 app.state.tokens = Tokens(settings.data)
                 app.state.authenticator = Authenticator(settings, app.state.tokens)
                 await opened.start()
                 if settings.bundled_ontology:
                     await seed(opened)
-                records = Records(open_database(settings.data))
-                app.state.maps = Maps(records, opened, settings.data / "ontologies")
+                database = open_database(settings.data)
+                app.state.maps = Maps(Records(database), opened, settings.data / "ontologies")
                 app.state.jobs = Jobs(app.state.maps, settings.data / "jobs")
                 await app.state.maps.start()
             except StoreError as error:
@@ -70,14 +71,15 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
                 raise
             yield
         finally:
-            for part in ("jobs", "maps"):
-                if found := getattr(app.state, part, None):
+            for name in ("jobs", "maps"):
+                if found := getattr(app.state, name, None):
                     await found.stop()
             await opened.stop()
             if tokens := getattr(app.state, "tokens", None):
                 tokens.close()
-            if locked is not None:
-                locked.close()
+            for part in (database, locked):
+                if part is not None:
+                    part.close()
 
     app = FastAPI(
         title="SymboSLAM",

@@ -29,6 +29,7 @@ from typing import IO, Any
 from symboslam.errors import InputError, OutputError, StoreError
 from symboslam.service.database import NAME, check_database, lock_folder, open_database
 from symboslam.service.store._base import Store
+from symboslam.service.store.folder import open_folder
 
 Progress = Callable[[str, float], None]
 STAGING = "backup"
@@ -132,7 +133,7 @@ def restore(file: Path, data: Path, progress: Progress) -> dict[str, Any]:
         progress("looking at it", 1.0)
         check_database(new)
         if manifest["store"]:
-            _open(new)
+            open_folder(new)
         _sync(new)
         new.replace(data)
         _sync(data.absolute().parent)
@@ -159,20 +160,11 @@ def _copy_records(data: Path, folder: Path) -> None:
 
 
 def _copy_store(data: Path, folder: Path) -> None:
-    store = _open(data)
+    store = open_folder(data)
     try:
         store.backup(str(folder))
     except (OSError, RuntimeError) as error:
         raise StoreError(f"{data}: the store cannot be copied: {error}") from error
-
-
-def _open(data: Path) -> Any:
-    import pyoxigraph
-
-    try:
-        return pyoxigraph.Store(data / "store")
-    except (OSError, RuntimeError) as error:
-        raise StoreError(f"{data / 'store'} cannot be opened: {error}") from error
 
 
 @contextmanager

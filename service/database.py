@@ -23,7 +23,7 @@ def check_database(data: Path) -> None:
     file = data / NAME
     if not file.exists():
         return
-    if file.stat().st_size == 0 and not (data / f"{NAME}-wal").exists():
+    if file.stat().st_size == 0:  # SQLite would begin anew, and remove its log
         raise StoreError(f"{file} is empty{_MEND}. If this folder is new, remove the file")
     try:
         address = f"{file.absolute().as_uri()}?mode=ro"

@@ -27,21 +27,21 @@ from symboslam.service.store._base import (
     Store,
 )
 from symboslam.service.store.documents import parse_all, place_and_problem
+from symboslam.service.store.folder import DAMAGED, note, open_folder
 from symboslam.service.store.patches import patch_update
 from symboslam.service.store.snapshots import Snapshots
 from symboslam.service.workers import Pool
 
 if TYPE_CHECKING:
+    import pyoxigraph
     from pyoxigraph import DefaultGraph, NamedNode, Triple
 
     from symboslam.service.settings import Settings
 
 T = TypeVar("T")
 _log = logging.getLogger(__name__)
-_DAMAGED = "Corruption"
-"""How RocksDB begins what it says of files that are not as they were written."""
 _REFUSED = "IO error"
-"""The same of what the system refuses."""
+"""How RocksDB begins what it says of writes that the system refuses."""
 _AGAIN_SECONDS = 1.0
 """How long after a failure the store is opened anew, and how long after that once more."""
 
@@ -57,15 +57,9 @@ class OxigraphStore(Store):
     """
 
     def __init__(self, settings: Settings) -> None:
-        import pyoxigraph
-
         self._settings = settings
-        self._folder = settings.data / "store"
-        try:
-            self._folder.mkdir(parents=True, exist_ok=True)
-            self._store: pyoxigraph.Store | None = pyoxigraph.Store(self._folder)
-        except (OSError, RuntimeError) as error:
-            raise StoreError(_opening(settings.data, error)) from error
+        self._store: pyoxigraph.Store | None = open_folder(settings.data)
+        note(settings.data)
         self._snapshots = Snapshots(
             settings.data.resolve() / "snapshots", self._backup, lambda: self._pool.snapshots
         )
@@ -139,6 +133,7 @@ class OxigraphStore(Store):
                 _log.error("the store could not be flushed: %s", error)
             finally:
                 self._store = None  # closes it, and lets go of the lock
+                await asyncio.to_thread(note, self._settings.data)
 
     async def query(self, query: Query) -> Answer:
         """Answer a query; see `Store`."""
@@ -271,7 +266,7 @@ class OxigraphStore(Store):
         except (SyntaxError, ValueError) as error:
             raise QueryError(*place_and_problem(error)) from error
         except RuntimeError as error:  # "The graph ... does not exist", and the like
-            if str(error).startswith(_DAMAGED):
+            if str(error).startswith(DAMAGED):
                 raise StoreError(f"the store is damaged: {error}") from error
             raise QueryError(str(error)) from error
 
@@ -338,18 +333,16 @@ class OxigraphStore(Store):
             async with self._writing:
                 try:
                     await asyncio.to_thread(self._open_anew)
-                except (OSError, RuntimeError) as error:
-                    self._trouble = f"the store cannot be opened anew: {error}"
+                except StoreError as error:
+                    self._trouble = str(error)
                     continue
                 self._trouble = None
                 self._generation += 1
         _log.warning("the store can be written again")
 
     def _open_anew(self) -> None:
-        import pyoxigraph
-
         self._store = None  # closes it, unless a snapshot is being made, which has an end
-        self._store = pyoxigraph.Store(self._folder)
+        self._store = open_folder(self._settings.data)
 
     async def _ask(self, request: dict[str, Any], gzip: bool, *, reads: bool = True) -> Answer:
         limit = self._settings.max_result_bytes
@@ -389,15 +382,3 @@ def _name(graph: str | None) -> NamedNode | DefaultGraph:
     from pyoxigraph import DefaultGraph, NamedNode
 
     return DefaultGraph() if graph is None else NamedNode(graph)
-
-
-def _opening(data: Path, error: Exception) -> str:
-    if isinstance(error, OSError) and "lock" in str(error).lower():
-        return f"{data}: another process has this store open; stop it, or take another --data"
-    if str(error).startswith(_DAMAGED) or isinstance(error, FileNotFoundError):
-        return (
-            f"{data / 'store'} is damaged, and was left as it is: {error}. Restore a backup"
-            " (symboslam store restore), or move the folder away: the maps in service.sqlite3 are"
-            " stated anew, graphs of your own are lost"
-        )
-    return f"{data}: the store cannot be opened: {error}"
