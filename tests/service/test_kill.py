@@ -243,3 +243,48 @@ def check_overrides(client: httpx.Client, load: Load) -> None:
         )
         rows = client.get("/sparql", params={"query": query}).json()["results"]["bindings"]
         assert {row["o"]["value"].rpartition("/")[2] for row in rows} == known
+
+
+def test_killed_while_maps_are_removed(tmp_path: Path) -> None:
+    """Each map is there and whole, or gone and with it all its graphs."""
+    data, settings, chance = tmp_path / "data", {"rate": "none"}, random.Random(1)
+    with serve(data, **settings) as (process, client):
+        maps = [make_map(client, n) for n in range(16)]
+        load = Load(maps, chance)
+        for _ in range(30):
+            load.feed(client, 0)
+        process.send_signal(signal.SIGKILL)
+    gone: set[str] = set()
+    for _ in range(2):
+        with serve(data, **settings) as (process, client):
+            left = [which for which in maps if which not in gone]
+            count = len(gone) + chance.randint(3, 6)
+
+            def remove(url: str, left: list[str] = left) -> None:
+                with httpx.Client(base_url=url, timeout=60) as other:
+                    for which in left:
+                        try:
+                            other.delete(f"/v1/maps/{which}", headers=ADMIN).raise_for_status()
+                        except httpx.TransportError:
+                            return
+                        gone.add(which)
+
+            removing = threading.Thread(target=remove, args=(str(client.base_url),))
+            removing.start()
+            while len(gone) < count:
+                assert removing.is_alive()
+            time.sleep(chance.uniform(0, 0.02))
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+            removing.join()
+        with serve(data, **settings) as (_, client):
+            for which in maps:
+                if client.get(f"/v1/maps/{which}").status_code == 404:
+                    assert not any(graphs_of(client, which).values())
+                    gone.add(which)
+                else:
+                    assert which not in gone
+                    while not graphs_of(client, which)["provenance"]:
+                        time.sleep(0.05)  # it is stated in the background
+                    assert half_written(client, which) == []
+    assert gone < set(maps)
