@@ -29,6 +29,8 @@ def check_database(data: Path) -> None:
         address = f"{file.absolute().as_uri()}?mode=ro"
         with closing(sqlite3.connect(address, timeout=10, uri=True)) as found:
             rows = found.execute("PRAGMA quick_check(1)").fetchall()
+    except sqlite3.OperationalError as error:
+        raise StoreError(f"{file} cannot be opened: {error}") from error
     except sqlite3.DatabaseError as error:
         rows = [(str(error),)]
     if rows != [("ok",)]:

@@ -8,7 +8,8 @@ from __future__ import annotations
 import asyncio
 import itertools
 import logging
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from secrets import token_hex
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
@@ -44,6 +45,17 @@ _REFUSED = "IO error"
 """How RocksDB begins what it says of writes that the system refuses."""
 _AGAIN_SECONDS = 1.0
 """How long after a failure the store is opened anew, and how long after that once more."""
+
+
+@contextmanager
+def _told() -> Iterator[None]:
+    """Tell as such what RocksDB finds damaged."""
+    try:
+        yield
+    except RuntimeError as error:
+        if str(error).startswith(DAMAGED):
+            raise StoreError(f"the store is damaged: {error}") from error
+        raise
 
 
 class OxigraphStore(Store):
@@ -245,6 +257,7 @@ class OxigraphStore(Store):
             raise StoreError(self._trouble or "the store is closed")
         return self._store
 
+    @_told()
     def _has(self, graph: str | None) -> bool:
         return graph is None or bool(self._open.contains_named_graph(_name(graph)))
 
@@ -262,12 +275,11 @@ class OxigraphStore(Store):
 
     def _update(self, text: str, base: str | None) -> None:
         try:
-            self._open.update(text, base_iri=base)
+            with _told():
+                self._open.update(text, base_iri=base)
         except (SyntaxError, ValueError) as error:
             raise QueryError(*place_and_problem(error)) from error
         except RuntimeError as error:  # "The graph ... does not exist", and the like
-            if str(error).startswith(DAMAGED):
-                raise StoreError(f"the store is damaged: {error}") from error
             raise QueryError(str(error)) from error
 
     def _replace(self, graph: str | None, triples: list[Triple]) -> None:
@@ -297,7 +309,8 @@ class OxigraphStore(Store):
             if self._trouble is not None:
                 raise StoreError(self._trouble)
             try:
-                found = await asyncio.to_thread(write)
+                with _told():
+                    found = await asyncio.to_thread(write)
             except OSError as error:
                 self._fail(error)
                 raise StoreError(f"the store cannot be written: {error}") from error
@@ -307,6 +320,7 @@ class OxigraphStore(Store):
             self._generation += 1
             return found
 
+    @_told()
     def _backup(self, folder: str) -> None:
         try:
             self._open.backup(folder)
@@ -373,6 +387,8 @@ def _fail(reply: dict[str, Any], request: dict[str, Any], limit: int) -> NoRetur
         raise ResultLimitError(f"the result is larger than {limit} bytes; add a LIMIT")
     if kind == "memory":
         raise CrashError("it needs too much memory")
+    if kind == "failed" and detail.startswith(DAMAGED):
+        raise StoreError(f"the store is damaged: {detail}")
     if kind == "failed":
         raise QueryError(f"it cannot be evaluated: {detail}")
     raise StoreError(f"the store cannot be read: {detail}")

@@ -33,16 +33,21 @@ def make_map(client: httpx.Client, **options: Any) -> str:
     return str(client.post("/v1/maps", json=wanted, headers=ADMIN).raise_for_status().json()["id"])
 
 
-def send(client: httpx.Client, which: str, number: int) -> None:
-    """A batch of five landmarks of its own."""
+def observe(client: httpx.Client, which: str, number: int) -> httpx.Response:
+    """Send a batch of five landmarks of its own."""
     lines = [
         {"class": kind, "coordinates": [10 + 40 * (number % 20) + 6 * i, 20 + 40 * (number // 20)]}
         for i, kind in enumerate(("House", "Factory", "Tree", "BusStop", "House"))
     ]
-    client.post(
+    return client.post(
         f"/v1/maps/{which}/observations", content="\n".join(map(json.dumps, lines)),
         headers={**ADMIN, "Content-Type": "application/x-ndjson", "Idempotency-Key": f"b{number}"},
-    ).raise_for_status()  # fmt: skip
+    )  # fmt: skip
+
+
+def send(client: httpx.Client, which: str, number: int) -> None:
+    """The same, which has to be taken."""
+    observe(client, which, number).raise_for_status()
 
 
 def fill(service: Service) -> str:

@@ -1,7 +1,7 @@
 """A full disk, and folders that are damaged: told, nothing lost, nothing written over."""
 
-import json
 import os
+import shutil
 import subprocess
 import sys
 import time
@@ -13,7 +13,7 @@ import pytest
 
 from tests.service.conftest import ADMIN, TOKEN, UPDATE, MakeService, Service, running
 from tests.service.kept import half_written
-from tests.service.test_backup import make_map, open_again, send, symboslam
+from tests.service.test_backup import make_map, observe, open_again, send, symboslam
 
 
 @pytest.fixture
@@ -55,17 +55,6 @@ def refused(response: httpx.Response) -> bool:
     assert response.headers["content-type"] == "application/problem+json"
     assert "Retry-After" in response.headers
     return True
-
-
-def observe(client: httpx.Client, which: str, number: int) -> httpx.Response:
-    lines = [
-        {"class": kind, "coordinates": [10 + 40 * (number % 20) + 6 * i, 20 + 40 * (number // 20)]}
-        for i, kind in enumerate(("House", "Factory", "Tree", "BusStop", "House"))
-    ]
-    return client.post(
-        f"/v1/maps/{which}/observations", content="\n".join(map(json.dumps, lines)),
-        headers={**ADMIN, "Content-Type": "application/x-ndjson", "Idempotency-Key": f"b{number}"},
-    )  # fmt: skip
 
 
 def insert(service: Service, number: int) -> httpx.Response:
@@ -111,6 +100,8 @@ def test_a_full_disk(small_disk: Path) -> None:
             assert response.status_code == 503
             assert "No space left" in response.json()["detail"]
             assert service.client.get("/healthz").status_code == 200
+            query = service.ask("ASK { GRAPH <urn:log> { ?s ?p ?o } }")
+            assert query.status_code == 200 or refused(query)
             ballast.unlink()
             ready_again(service)
             assert took <= inserted(service)
@@ -210,8 +201,6 @@ def content(data: Path) -> dict[str, bytes]:
 
 @pytest.mark.parametrize("name", DAMAGE)
 def test_a_damaged_folder_is_left_as_it_is(kept: Path, tmp_path: Path, name: str) -> None:
-    import shutil
-
     data = tmp_path / "data"
     shutil.copytree(kept, data)
     DAMAGE[name](data)
@@ -252,8 +241,6 @@ def test_one_server_a_folder_wherever_the_store_is(tmp_path: Path, fuseki_url: s
 
 def test_a_map_whose_statements_are_gone(make_service: MakeService, kept: Path) -> None:
     """A folder whose store was moved away gets the maps' statements back."""
-    import shutil
-
     data = kept.parent / "without"
     shutil.copytree(kept, data)
     shutil.rmtree(data / "store")
@@ -263,3 +250,26 @@ def test_a_map_whose_statements_are_gone(make_service: MakeService, kept: Path) 
     while not service.ask(query).json()["boolean"]:
         time.sleep(0.05)
     assert half_written(service.client, which) == []
+
+
+def flip(file: Path) -> None:
+    """Turn bits over in the first block of a table, which holds data."""
+    with file.open("r+b") as stream:
+        bad = bytes(byte ^ 255 for byte in stream.read(16))
+        stream.seek(0)
+        stream.write(bad)
+
+
+@pytest.mark.parametrize("command", [["serve", "--port", "0", "--data"], ["store", "check"]])
+def test_blocks_that_went_bad(kept: Path, tmp_path: Path, command: list[str]) -> None:
+    """They are found when they are read, which is at the start what says which graphs there are."""
+    data = tmp_path / "bad"
+    shutil.copytree(kept, data)
+    for file in (data / "store").glob("*.sst"):
+        flip(file)
+    done = subprocess.run(
+        [sys.executable, "-m", "symboslam", *command, str(data)], check=False, text=True,
+        capture_output=True, timeout=60, env={**os.environ, "SYMBOSLAM_BUNDLED_ONTOLOGY": "false"},
+    )  # fmt: skip
+    assert done.returncode == (2 if command[0] == "serve" else 1), done.stderr
+    assert "damaged: Corruption" in done.stderr + done.stdout
