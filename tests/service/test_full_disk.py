@@ -260,16 +260,14 @@ def flip(file: Path) -> None:
         stream.write(bad)
 
 
-@pytest.mark.parametrize("command", [["serve", "--port", "0", "--data"], ["store", "check"]])
-def test_blocks_that_went_bad(kept: Path, tmp_path: Path, command: list[str]) -> None:
-    """They are found when they are read, which is at the start what says which graphs there are."""
+def test_blocks_that_went_bad(kept: Path, tmp_path: Path) -> None:
+    """They are found when they are read; the small tables, which a start reads, are well."""
     data = tmp_path / "bad"
     shutil.copytree(kept, data)
-    for file in (data / "store").glob("*.sst"):
+    tables = [f for f in (data / "store").glob("*.sst") if f.stat().st_size > 3000]
+    assert tables
+    for file in tables:
         flip(file)
-    done = subprocess.run(
-        [sys.executable, "-m", "symboslam", *command, str(data)], check=False, text=True,
-        capture_output=True, timeout=60, env={**os.environ, "SYMBOSLAM_BUNDLED_ONTOLOGY": "false"},
-    )  # fmt: skip
-    assert done.returncode == (2 if command[0] == "serve" else 1), done.stderr
-    assert "damaged: Corruption" in done.stderr + done.stdout
+    code, text = symboslam("store", "check", data)
+    assert code == 1
+    assert "cannot be read: the store is damaged: Corruption" in text

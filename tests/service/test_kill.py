@@ -212,9 +212,9 @@ def test_killed_under_load(tmp_path: Path, number: int) -> None:
     rmtree(anew / "store")
     with serve(anew, **settings) as (_, client):
         for which in load.maps:
-            while not (found := graphs_of(client, which))["provenance"]:
+            while not graphs_of(client, which)["provenance"]:
                 time.sleep(0.1)  # it is stated in the background; the test's time limit ends this
-            assert same(found, stated[which])
+            assert same(graphs_of(client, which), stated[which])
 
 
 def check_updates(client: httpx.Client, load: Load) -> None:
