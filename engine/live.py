@@ -70,7 +70,6 @@ class LiveMap:
         knowledge: what each kind of landmark indicates.
         profile: ``default`` or ``paper``.
         scheme: set of environment types; None takes the ontology's default.
-        in_force: estimate of absence that was in force when the map was left.
         **changes: settings that differ from the profile's.
 
     Attributes:
@@ -90,7 +89,6 @@ class LiveMap:
         *,
         profile: str = "default",
         scheme: str | None = None,
-        in_force: float | None = None,
         **changes: Any,
     ) -> None:
         settings = settings_of(profile, **changes)
@@ -107,7 +105,7 @@ class LiveMap:
         self._estimates = settings.absence is None
         self.absence = settings.absence or 0.0
         if self._estimates:
-            self.absence = in_force or crowding_share(self._field)
+            self.absence = crowding_share(self._field)
         self._settings = replace(settings, bandwidth=bandwidth, absence=self.absence)
         self._roots: dict[tuple[int, int], Segments] = {}
         self._pairs = LivePairs(grid, proximity) if settings.evidence == "pairs" else None
@@ -135,6 +133,18 @@ class LiveMap:
     def area(self) -> LandmarkMap:
         """Where the map lies, as a map without landmarks."""
         return self._like
+
+    def resume(self, absence: float) -> None:
+        """Take over the estimate of absence of a map with the same landmarks.
+
+        The estimate in force depends on how the landmarks came, because it follows in steps of
+        `DRIFT`. A map that is made of all landmarks at once has another one, and so slightly
+        other probabilities, until it takes the old one over.
+        """
+        if self._estimates and absence != self.absence:
+            self.absence = absence
+            self._settings = replace(self._settings, absence=absence)
+            self._update(np.ones_like(self._inside, dtype=bool), Change({}))
 
     def landmarks(self) -> LandmarkMap:
         """All landmarks."""

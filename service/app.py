@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import asyncio
+import shutil
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
@@ -11,9 +13,10 @@ from starlette.middleware.gzip import GZipMiddleware
 
 from symboslam import __version__
 from symboslam.errors import StoreError
-from symboslam.service import health, metrics, problems, tokens_api
+from symboslam.service import backup_api, health, metrics, problems, tokens_api
 from symboslam.service.auth import Authenticator, describe_public_reading
-from symboslam.service.database import open_database
+from symboslam.service.backup import STAGING
+from symboslam.service.database import check_database, lock_folder, open_database
 from symboslam.service.examples import routes as examples
 from symboslam.service.lifecycle import Lifecycle
 from symboslam.service.limits import Limits, parse_rates
@@ -44,19 +47,24 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        if store is None:
+            await asyncio.to_thread(check_database, settings.data)
         opened = store or open_store(settings)
+        locked = database = None
         app.state.store = opened
         app.state.metrics.watch(opened)
         try:
             try:
+                locked = lock_folder(settings.data)
+                await asyncio.to_thread(shutil.rmtree, settings.data / STAGING, True)
                 app.state.tokens = Tokens(settings.data)
                 app.state.authenticator = Authenticator(settings, app.state.tokens)
                 await opened.start()
                 if settings.bundled_ontology:
                     await seed(opened)
-                records = Records(open_database(settings.data))
+                database = open_database(settings.data)
                 app.state.maps = Maps(
-                    records, opened, settings.data / "ontologies", app.state.metrics
+                    Records(database), opened, settings.data / "ontologies", app.state.metrics
                 )
                 app.state.jobs = Jobs(app.state.maps, settings.data / "jobs")
                 await app.state.maps.start()
@@ -65,12 +73,15 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
                 raise
             yield
         finally:
-            for part in ("jobs", "maps"):
-                if found := getattr(app.state, part, None):
+            for name in ("jobs", "maps"):
+                if found := getattr(app.state, name, None):
                     await found.stop()
             await opened.stop()
             if tokens := getattr(app.state, "tokens", None):
                 tokens.close()
+            for part in (database, locked):
+                if part is not None:
+                    part.close()
 
     app = FastAPI(
         title="SymboSLAM",
@@ -83,6 +94,7 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
     )
     app.state.settings = settings
     app.state.lifecycle = Lifecycle()
+    app.state.backing_up = asyncio.Lock()
     app.state.limits = _limits(settings)
     app.state.metrics = metrics.Metrics()
     problems.install(app)
@@ -111,6 +123,7 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
     for router in (
         health.router, metrics.router, tokens_api.router, protocol.router, graph_store.router,
         routes.router, segments.router, jobs.router, examples.router, page.router,
+        backup_api.router,
     ):  # fmt: skip
         app.include_router(router)
     return app

@@ -43,5 +43,6 @@ async def readyz(store: CurrentStore, lifecycle: CurrentLifecycle) -> Response:
     if lifecycle.draining:
         raise Problem(503, "stopping", "the service stops", headers={"Retry-After": "10"})
     if not store.ready:
-        raise Problem(503, "not-ready", "no query can be answered", headers={"Retry-After": "1"})
+        detail = store.trouble or "no query can be answered"
+        raise Problem(503, "not-ready", detail, headers={"Retry-After": "1"})
     return JSONResponse({"status": "ready"})

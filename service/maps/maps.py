@@ -20,12 +20,13 @@ from symboslam.engine.landmarks import Box, LandmarkMap
 from symboslam.engine.live import LiveMap
 from symboslam.engine.sightings import Sightings
 from symboslam.engine.table import Landmark
+from symboslam.engine.writers.atomic import atomic_file
 from symboslam.engine.writers.vocabulary import MAPS
-from symboslam.errors import InputError, StoreError, UnknownNameError
+from symboslam.errors import InputError, OutputError, StoreError, UnknownNameError
 from symboslam.reasoning.knowledge import Knowledge
 from symboslam.service.maps.records import MapRecord, Records
 from symboslam.service.maps.running import RunningMap, add_left_out, report_of
-from symboslam.service.maps.statements import GRAPHS, Statements
+from symboslam.service.maps.statements import Statements
 from symboslam.service.metrics import Metrics
 from symboslam.service.store._base import MissingGraphError, Store
 from symboslam.service.vocabulary import N_TRIPLES
@@ -52,13 +53,20 @@ class Maps:
         self._knowledge: dict[str, Knowledge] = {}
         self._opening: dict[str, asyncio.Lock] = {}
         self._catching_up: asyncio.Task[None] | None = None
+        self.coming_and_going = asyncio.Lock()
+        """Held while a map comes or goes, so that a backup finds all of it or nothing."""
 
     async def start(self) -> None:
-        """State what the store was not told before the service stopped, in the background."""
+        """State what the store was not told before the service stopped, in the background.
+
+        Of maps that were being made there may be a part in the store: those are made up for first.
+        """
         behind = []
         for identifier in await asyncio.to_thread(self.records.maps):
-            record = self.records.map(identifier)
-            if record is not None and record.stated != record.revision:
+            record = await asyncio.to_thread(self.records.map, identifier)
+            if record is not None and record.stated < 0:
+                await (await self.open(identifier)).state()
+            elif record is not None and not await self._is_stated(record):
                 behind.append(identifier)
 
         async def catch_up() -> None:
@@ -110,10 +118,20 @@ class Maps:
 
         def keep() -> None:
             self._ontologies.mkdir(parents=True, exist_ok=True)
-            (self._ontologies / name).write_bytes(data)
+            with atomic_file(self._ontologies / name) as file:
+                file.write(data)
 
-        await asyncio.to_thread(keep)
+        try:
+            await asyncio.to_thread(keep)
+        except (OSError, OutputError) as error:
+            raise StoreError(f"the ontology cannot be kept: {error}") from error
         return name
+
+    async def _is_stated(self, record: MapRecord) -> bool:
+        """Whether the store is at a map's revision, as far as can be seen without reading it."""
+        if record.stated != record.revision:
+            return False
+        return await self._store.has_graph(f"{base_of(record.id)}provenance")
 
     async def create(
         self, name: str, area: LandmarkMap, options: dict[str, Any], identifier: str | None = None
@@ -140,12 +158,12 @@ class Maps:
         knowledge = await self.knowledge(options["ontology"])
         landmarks = _landmarks(area)
         running = await asyncio.to_thread(self._make, record, knowledge, landmarks, {})
-        record = running.record = replace(record, absence=running.live.absence)
         features = knowledge.features
         rows = [(n, features[each.feature].iri, each) for n, each in enumerate(landmarks)]
-        await asyncio.to_thread(self.records.add, record, rows)
-        self._running[record.id] = running
-        await running.state()
+        async with self.coming_and_going:
+            await asyncio.to_thread(self.records.add, record, rows)
+            self._running[record.id] = running
+            await running.state()
         return running
 
     async def open(self, identifier: str) -> RunningMap:
@@ -186,12 +204,9 @@ class Maps:
             UnknownNameError: there is no such map.
         """
         running = await self.open(identifier)
-        await asyncio.to_thread(self.records.remove, identifier)
-        self._running.pop(identifier, None)
-        await running.stop()
-        for name in reversed(GRAPHS):
-            with contextlib.suppress(MissingGraphError):
-                await self._store.drop_graph(f"{base_of(identifier)}{name}")
+        async with self.coming_and_going:
+            await running.remove()
+            self._running.pop(identifier, None)
 
     def _make(
         self,
@@ -204,7 +219,7 @@ class Maps:
         area = replace(_area(record.area), report=report_of(record))
         live = LiveMap(
             area, knowledge, profile=options["profile"], scheme=options["scheme"],
-            in_force=record.absence, **options["settings"],
+            **options["settings"],
         )  # fmt: skip
         if live.config["cells"] > MOST_CELLS:
             cells = live.config["cells"]
@@ -212,6 +227,8 @@ class Maps:
         for landmark in landmarks:
             live.table.put(landmark)
         live.catch_up()
+        if record.absence is not None:
+            live.resume(record.absence)
         return RunningMap(
             record, live, knowledge,
             Statements(live, base_of(record.id), options["reasons"]),

@@ -60,7 +60,7 @@ class MapRecord:
         revision: how often it changed.
         changed: when it did last, ISO 8601.
         stated: the revision that the store is at; -1 = none.
-        absence: evidence of unmarked ground that was in force last.
+        absence: the estimate of absence that the store's statements were made with, if any.
     """
 
     id: str
@@ -114,6 +114,9 @@ class Records:
         self._database, self._lock = database, threading.Lock()
         with self._errors():
             self._database.executescript(_TABLES)
+            columns = self._database.execute("SELECT name FROM pragma_table_info('map')")
+            if ("absence",) not in columns.fetchall():  # made before there was this column
+                self._database.execute("ALTER TABLE map ADD COLUMN absence REAL")
 
     def maps(self) -> list[str]:
         """Ids of all maps, the oldest first."""
@@ -172,12 +175,12 @@ class Records:
         with self._transaction() as database:
             database.execute(
                 "INSERT INTO map"
-                " (id, name, created, area, options, changed, left_out, revision, absence)"
-                " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
+                " (id, name, created, area, options, changed, left_out, revision)"
+                " VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
                 (
                     record.id, record.name, record.created, json.dumps(record.area),
                     json.dumps(record.options), record.changed, json.dumps(record.left_out),
-                    record.revision, record.absence,
+                    record.revision,
                 ),
             )  # fmt: skip
             _put(database, record.id, landmarks)
@@ -217,8 +220,8 @@ class Records:
                 ),
             )
             database.execute(
-                "UPDATE map SET revision = ?, changed = ?, left_out = ?, absence = ? WHERE id = ?",
-                (record.revision, record.changed, json.dumps(record.left_out), record.absence, i),
+                "UPDATE map SET revision = ?, changed = ?, left_out = ? WHERE id = ?",
+                (record.revision, record.changed, json.dumps(record.left_out), i),
             )
 
     def keep_override(self, record: MapRecord, override: Override) -> None:
@@ -235,10 +238,13 @@ class Records:
                 (record.revision, record.changed, record.id),
             )
 
-    def stated(self, identifier: str, revision: int) -> None:
-        """Note the revision that the store is at."""
+    def stated(self, identifier: str, revision: int, absence: float | None = None) -> None:
+        """Note the revision that the store is at, and the estimate of absence behind it."""
         with self._transaction() as database:
-            database.execute("UPDATE map SET stated = ? WHERE id = ?", (revision, identifier))
+            database.execute(
+                "UPDATE map SET stated = ?, absence = ? WHERE id = ?",
+                (revision, absence, identifier),
+            )
 
     def _all(self, query: str, *values: str) -> list[tuple[Any, ...]]:
         with self._errors(), self._lock:

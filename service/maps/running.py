@@ -9,6 +9,7 @@ that, the store is made from the records when the map is next opened.
 from __future__ import annotations
 
 import asyncio
+import contextlib
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
@@ -26,7 +27,8 @@ from symboslam.service.maps.observations import Observations
 from symboslam.service.maps.records import MapRecord, Override, Records
 from symboslam.service.maps.statements import GRAPHS, Statements
 from symboslam.service.metrics import Metrics
-from symboslam.service.store._base import BusyError, Store
+from symboslam.service.store._base import BusyError, Document, MissingGraphError, Store
+from symboslam.service.vocabulary import N_TRIPLES
 
 T = TypeVar("T")
 MOST_WAITING = 256
@@ -141,11 +143,30 @@ class RunningMap:
             record = self._next()
             await asyncio.to_thread(self._records.keep_override, record, override)
             self.record = record
-            await self._patch(*self._statements.override(override))
+            ended = datetime.fromisoformat(record.changed)
+            await self._patch(*await asyncio.to_thread(self._statements.override, override, ended))
             self.events.publish(
                 record.revision, {"override": override.id, "segment": override.segment}
             )
             return override
+
+    async def remove(self) -> None:
+        """Take the map out of the store and the records; what waits for it is refused.
+
+        Were that cut short, the map would be there still, and be stated anew.
+        """
+        async with self._lock:
+            await asyncio.to_thread(self._records.stated, self.record.id, -1)
+            for name in reversed(GRAPHS):
+                with contextlib.suppress(MissingGraphError):
+                    await self._store.drop_graph(f"{self._statements.base}{name}")
+            await asyncio.to_thread(self._records.remove, self.record.id)
+        await self.stop()
+
+    async def said(self) -> dict[str, str]:
+        """What the store has to say, as N-Triples by the name of the graph; to compare with it."""
+        async with self._lock:
+            return await self._everything()
 
     async def stop(self) -> None:
         """Wait for what is being worked on, and end event streams."""
@@ -206,7 +227,6 @@ class RunningMap:
         self.live.report = report_of(record)
         change = self.live.catch_up() or Change({})
         features = self.knowledge.features
-        record = replace(record, absence=self.live.absence)
         self._records.take(
             record,
             (
@@ -254,12 +274,24 @@ class RunningMap:
         if self.record.stated != self.record.revision:
             await self._state()
 
-    async def _state(self) -> None:
+    async def _everything(self) -> dict[str, str]:
         ended = datetime.fromisoformat(self.record.changed)
         overrides = await asyncio.to_thread(self._records.overrides, self.record.id)
-        found = await asyncio.to_thread(self._statements.everything, ended, overrides)
-        for name in GRAPHS:
-            await self._store.fill_graph(f"{self._statements.base}{name}", found[name])
+        return await asyncio.to_thread(self._statements.everything, ended, overrides)
+
+    async def _state(self) -> None:
+        found = await self._everything()
+        base = self._statements.base
+        if self.record.stated < 0:  # nobody knows of it yet
+            for name in GRAPHS:
+                await self._store.fill_graph(f"{base}{name}", found[name])
+        else:
+            await self._store.replace_graphs(
+                {
+                    f"{base}{name}": Document(N_TRIPLES, found[name].encode(), base)
+                    for name in GRAPHS
+                }
+            )
         await self._stated()
 
     async def _patch(self, removed: str, added: str) -> None:
@@ -267,8 +299,9 @@ class RunningMap:
         await self._stated()
 
     async def _stated(self) -> None:
-        await asyncio.to_thread(self._records.stated, self.record.id, self.record.revision)
-        self.record = replace(self.record, stated=self.record.revision)
+        revision, absence = self.record.revision, self.live.config["absence"]
+        await asyncio.to_thread(self._records.stated, self.record.id, revision, absence)
+        self.record = replace(self.record, stated=revision, absence=absence)
 
 
 UNKNOWN, OUTSIDE, OTHERS = "unknown ", "outside", "(others)"

@@ -66,9 +66,7 @@ class Statements:
         found["segments"] = "".join(line for lines in self._segments.values() for line in lines)
         self._mentioned = content.mentioned
         self._terms = self._lines(terms(records), "terms")
-        self._provenance = self._lines(
-            provenance(records, ended, (len(landmarks), sorted(self._agents))), "provenance"
-        )
+        self._lineage(records, ended)
         found["terms"], found["provenance"] = "".join(self._terms), "".join(self._provenance)
         found["overrides"] = "".join(self._about_overrides())
         return {
@@ -91,12 +89,8 @@ class Statements:
             added |= lines
             self._segments[name] = lines
         added |= self._new_terms(content, after)
-        lineage = self._lines(
-            provenance(records, ended, (len(self._live.table), sorted(self._agents))), "provenance"
-        )
         removed |= self._provenance
-        added |= lineage
-        self._provenance = lineage
+        added |= self._lineage(records, ended)
         return "".join(removed - added), "".join(added - removed)
 
     def _new_terms(self, content: Content, landmarks: Sequence[Landmark]) -> Lines:
@@ -111,17 +105,26 @@ class Statements:
         self._terms |= new
         return new
 
-    def override(self, override: Override) -> tuple[str, str]:
+    def override(self, override: Override, ended: datetime) -> tuple[str, str]:
         """An operator's statement, made or taken back: statements to take back and to add."""
         known = self._overrides.setdefault(override.segment, [])
         before = [each for each in known if each.id == override.id]
-        removed = "".join(line for each in before for line in self._of_override(each))
+        removed = [line for each in before for line in self._of_override(each)]
+        removed += self._provenance
         known[:] = [each for each in known if each.id != override.id] + [override]
-        return removed, "".join(self._of_override(override))
+        records = Records(Content(self._live.described([])), self._syntax)
+        added = [*self._of_override(override), *self._lineage(records, ended)]
+        return "".join(removed), "".join(added)
 
     def of_segment(self, name: str) -> str:
         """What is stated of a segment now, to be kept with an override of it."""
         return "".join(sorted(self._segments.get(name, NONE)))
+
+    def _lineage(self, records: Records, ended: datetime) -> Lines:
+        """Where the statements come from, as of now."""
+        seen = len(self._live.table), sorted(self._agents)
+        self._provenance = self._lines(provenance(records, ended, seen), "provenance")
+        return self._provenance
 
     def _of_landmarks(self, change: Change) -> tuple[set[str], set[str]]:
         """What was stated of the landmarks that changed, and what is to be stated."""

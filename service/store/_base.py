@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import IO, NamedTuple
 
 from symboslam.errors import StoreError
@@ -142,6 +143,11 @@ class Store(ABC):
         """Whether queries can be answered now."""
 
     @property
+    def trouble(self) -> str | None:
+        """What keeps it from being written until it has recovered; None: nothing."""
+        return None
+
+    @property
     def activity(self) -> Activity:
         """What it does; zeros where a store does not know."""
         return Activity()
@@ -213,6 +219,14 @@ class Store(ABC):
         """
 
     @abstractmethod
+    async def replace_graphs(self, graphs: Mapping[str, Document]) -> None:
+        """Make several named graphs hold what a document each says, all of them or none.
+
+        Raises:
+            DocumentError: a document does not parse; the graphs are as they were.
+        """
+
+    @abstractmethod
     async def add_to_graph(self, graph: str | None, documents: Sequence[Document]) -> bool:
         """Add what the documents say to a graph; whether it is new.
 
@@ -245,3 +259,11 @@ class Store(ABC):
     @abstractmethod
     async def graph_names(self, limit: int) -> list[str]:
         """IRIs of up to so many named graphs, in their order."""
+
+    async def copy_to(self, folder: Path) -> bool:
+        """Put a copy of everything into a folder that is not there; False: it is elsewhere.
+
+        Raises:
+            StoreError: it cannot be made.
+        """
+        return False

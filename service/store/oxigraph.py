@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import asyncio
 import itertools
-from collections.abc import Callable, Sequence
+import logging
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from secrets import token_hex
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
@@ -26,17 +28,35 @@ from symboslam.service.store._base import (
     Store,
 )
 from symboslam.service.store.documents import parse_all, place_and_problem
+from symboslam.service.store.folder import DAMAGED, note, open_folder
 from symboslam.service.store.patches import patch_update
 from symboslam.service.store.snapshots import Snapshots
 from symboslam.service.workers import Pool
 
 if TYPE_CHECKING:
+    import pyoxigraph
     from pyoxigraph import DefaultGraph, NamedNode, Triple
 
     from symboslam.service.settings import Settings
 
 T = TypeVar("T")
 _MANY = 1_000_000  # bytes
+_log = logging.getLogger(__name__)
+_REFUSED = "IO error"
+"""How RocksDB begins what it says of writes that the system refuses."""
+_AGAIN_SECONDS = 1.0
+"""How long after a failure the store is opened anew, and how long after that once more."""
+
+
+@contextmanager
+def _told() -> Iterator[None]:
+    """Tell as such what RocksDB finds damaged."""
+    try:
+        yield
+    except RuntimeError as error:
+        if str(error).startswith(DAMAGED):
+            raise StoreError(f"the store is damaged: {error}") from error
+        raise
 
 
 class OxigraphStore(Store):
@@ -50,15 +70,9 @@ class OxigraphStore(Store):
     """
 
     def __init__(self, settings: Settings) -> None:
-        import pyoxigraph
-
         self._settings = settings
-        folder = settings.data / "store"
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-            self._store: pyoxigraph.Store | None = pyoxigraph.Store(folder)
-        except OSError as error:
-            raise StoreError(_opening(settings.data, error)) from error
+        self._store: pyoxigraph.Store | None = open_folder(settings.data)
+        note(settings.data)
         self._snapshots = Snapshots(
             settings.data.resolve() / "snapshots", self._backup, lambda: self._pool.snapshots
         )
@@ -73,6 +87,9 @@ class OxigraphStore(Store):
         self._generation = 0
         self._writing = asyncio.Lock()
         self._writes: set[asyncio.Task[Any]] = set()
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._trouble: str | None = None
+        self._recovering: asyncio.Task[None] | None = None
 
     @property
     def version(self) -> str:
@@ -82,7 +99,12 @@ class OxigraphStore(Store):
     @property
     def ready(self) -> bool:
         """Open, and somebody there to answer."""
-        return self._store is not None and self._pool.alive > 0
+        return self._store is not None and self._trouble is None and self._pool.alive > 0
+
+    @property
+    def trouble(self) -> str | None:
+        """Why it cannot be written; it is opened anew until it can."""
+        return self._trouble
 
     @property
     def activity(self) -> Activity:
@@ -102,6 +124,7 @@ class OxigraphStore(Store):
 
     async def start(self) -> None:
         """Start the workers."""
+        self._loop = asyncio.get_running_loop()
         try:
             await asyncio.to_thread(self._snapshots.clear)
             await self._pool.start()
@@ -110,12 +133,20 @@ class OxigraphStore(Store):
 
     async def stop(self) -> None:
         """Kill the workers, wait for a running update, and close."""
+        if self._recovering is not None:
+            self._recovering.cancel()
+            await asyncio.wait([self._recovering])
         await self._pool.stop()
         await asyncio.to_thread(self._snapshots.clear)
         async with self._writing:
-            if self._store is not None:
-                await asyncio.to_thread(self._store.flush)
-            self._store = None  # closes it, and lets go of the lock
+            try:
+                if self._store is not None:
+                    await asyncio.to_thread(self._store.flush)
+            except (OSError, RuntimeError) as error:  # what it was told is in its log
+                _log.error("the store could not be flushed: %s", error)
+            finally:
+                self._store = None  # closes it, and lets go of the lock
+                await asyncio.to_thread(note, self._settings.data)
 
     async def query(self, query: Query) -> Answer:
         """Answer a query; see `Store`."""
@@ -171,6 +202,24 @@ class OxigraphStore(Store):
 
         return await self._write(write)
 
+    async def replace_graphs(self, graphs: Mapping[str, Document]) -> None:
+        """Make several named graphs hold what a document each says, as one update."""
+
+        def text() -> str:
+            import pyoxigraph
+
+            before, inside = [], []
+            for graph, document in graphs.items():
+                data = pyoxigraph.serialize(
+                    parse_all([document]), format=pyoxigraph.RdfFormat.N_TRIPLES
+                )
+                before.append(f"CREATE SILENT GRAPH {_name(graph)} ; CLEAR GRAPH {_name(graph)} ;")
+                inside.append(f"GRAPH {_name(graph)} {{\n{(data or b'').decode()}}}\n")
+            return "\n".join([*before, f"INSERT DATA {{\n{''.join(inside)}}}"])
+
+        update = await asyncio.to_thread(text)
+        await self._write(lambda: self._update(update, None))
+
     async def add_to_graph(self, graph: str | None, documents: Sequence[Document]) -> bool:
         """Add what the documents say to a graph."""
         triples = await asyncio.to_thread(parse_all, documents)
@@ -209,12 +258,21 @@ class OxigraphStore(Store):
 
         return await asyncio.to_thread(names)
 
+    async def copy_to(self, folder: Path) -> bool:
+        """Put a copy into a folder on the same disk: hard links, which cost no space at first."""
+        try:
+            await asyncio.to_thread(self._backup, str(folder))
+        except OSError as error:
+            raise StoreError(f"the store cannot be copied: {error}") from error
+        return True
+
     @property
     def _open(self) -> Any:
         if self._store is None:
-            raise StoreError("the store is closed")
+            raise StoreError(self._trouble or "the store is closed")
         return self._store
 
+    @_told()
     def _has(self, graph: str | None) -> bool:
         return graph is None or bool(self._open.contains_named_graph(_name(graph)))
 
@@ -232,7 +290,8 @@ class OxigraphStore(Store):
 
     def _update(self, text: str, base: str | None) -> None:
         try:
-            self._open.update(text, base_iri=base)
+            with _told():
+                self._open.update(text, base_iri=base)
         except (SyntaxError, ValueError) as error:
             raise QueryError(*place_and_problem(error)) from error
         except RuntimeError as error:  # "The graph ... does not exist", and the like
@@ -262,15 +321,57 @@ class OxigraphStore(Store):
 
     async def _locked(self, write: Callable[[], T]) -> T:
         async with self._writing:
+            if self._trouble is not None:
+                raise StoreError(self._trouble)
             try:
-                return await asyncio.to_thread(write)
+                with _told():
+                    found = await asyncio.to_thread(write)
             except OSError as error:
+                self._fail(error)
                 raise StoreError(f"the store cannot be written: {error}") from error
-            finally:
+            except BaseException:
                 self._generation += 1
+                raise
+            self._generation += 1
+            return found
 
+    @_told()
     def _backup(self, folder: str) -> None:
-        self._open.backup(folder)
+        try:
+            self._open.backup(folder)
+        except OSError as error:
+            if self._loop is not None:
+                self._loop.call_soon_threadsafe(self._fail, error)
+            raise
+
+    def _fail(self, error: OSError) -> None:
+        """Take no more writes until the store was opened anew.
+
+        RocksDB refuses every write after one that failed, as on a full disk, until it is opened
+        anew. What it acknowledged is there, what failed is not. Queries go on with the last
+        snapshot, if nothing was written since.
+        """
+        if self._trouble is None and str(error).startswith(_REFUSED):  # not of a LOAD
+            self._trouble = f"the store cannot be written until it has recovered: {error}"
+            _log.error(self._trouble)
+            self._recovering = asyncio.create_task(self._recover())
+
+    async def _recover(self) -> None:
+        while self._trouble is not None:
+            await asyncio.sleep(_AGAIN_SECONDS)
+            async with self._writing:
+                try:
+                    await asyncio.to_thread(self._open_anew)
+                except StoreError as error:
+                    self._trouble = str(error)
+                    continue
+                self._trouble = None
+                self._generation += 1
+        _log.warning("the store can be written again")
+
+    def _open_anew(self) -> None:
+        self._store = None  # closes it, unless a snapshot is being made, which has an end
+        self._store = open_folder(self._settings.data)
 
     async def _ask(self, request: dict[str, Any], gzip: bool, *, reads: bool = True) -> Answer:
         limit = self._settings.max_result_bytes
@@ -301,6 +402,8 @@ def _fail(reply: dict[str, Any], request: dict[str, Any], limit: int) -> NoRetur
         raise ResultLimitError(f"the result is larger than {limit} bytes; add a LIMIT")
     if kind == "memory":
         raise CrashError("it needs too much memory")
+    if kind == "failed" and detail.startswith(DAMAGED):
+        raise StoreError(f"the store is damaged: {detail}")
     if kind == "failed":
         raise QueryError(f"it cannot be evaluated: {detail}")
     raise StoreError(f"the store cannot be read: {detail}")
@@ -310,9 +413,3 @@ def _name(graph: str | None) -> NamedNode | DefaultGraph:
     from pyoxigraph import DefaultGraph, NamedNode
 
     return DefaultGraph() if graph is None else NamedNode(graph)
-
-
-def _opening(data: Path, error: OSError) -> str:
-    if "lock" in str(error).lower():
-        return f"{data}: another process has this store open; stop it, or take another --data"
-    return f"{data}: the store cannot be opened: {error}"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
-from collections.abc import AsyncIterator, Iterator, Sequence
+from collections.abc import AsyncIterator, Iterator, Mapping, Sequence
 from contextlib import asynccontextmanager, contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -130,6 +130,18 @@ class RemoteStore(Store):
     async def replace_graph(self, graph: str | None, documents: Sequence[Document]) -> bool:
         """Make a graph hold what the documents say."""
         return await self._put("PUT", graph, await asyncio.to_thread(parse_all, documents))
+
+    async def replace_graphs(self, graphs: Mapping[str, Document]) -> None:
+        """Make several named graphs hold what a document each says, in one request."""
+        import pyoxigraph
+
+        before, inside = [], []
+        for graph, document in graphs.items():
+            triples = await asyncio.to_thread(parse_all, [document])
+            data = pyoxigraph.serialize(triples, format=pyoxigraph.RdfFormat.N_TRIPLES) or b""
+            before.append(_drop(graph))
+            inside.append(f"GRAPH {_iri(graph)} {{\n{data.decode()}}}\n")
+        await self._update(" ;\n".join([*before, f"INSERT DATA {{\n{''.join(inside)}}}"]))
 
     async def add_to_graph(self, graph: str | None, documents: Sequence[Document]) -> bool:
         """Add what the documents say to a graph."""

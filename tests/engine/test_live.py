@@ -109,3 +109,27 @@ def test_the_same_as_at_one_go(
                 live.table.remove(str(number))
         follow(live, told)
         same(live, knowledge, told)
+
+
+def test_a_map_made_anew_takes_over_the_estimate_of_absence(bundled: Knowledge) -> None:
+    """Else its probabilities would change when the service is started again."""
+    chance = np.random.default_rng(3)
+    kept = LiveMap(area(), bundled)
+    for n in range(60):
+        feature = bundled.index_of(NAMES[n % 3])
+        assert feature is not None
+        x, y = (float(v) for v in chance.uniform(1, SIDE - 1, 2))
+        kept.table.put(Landmark(f"L{n}", feature, x, y, 0.9, None, None, 1, 0.9))
+        kept.catch_up()
+    anew = LiveMap(area(), bundled)
+    for row in kept.table.rows().tolist():
+        anew.table.put(kept.table[row])
+    anew.catch_up()
+    assert anew.config["absence"] != kept.config["absence"], "this shows nothing"
+    anew.resume(kept.config["absence"])
+    assert anew.config == kept.config
+    before, after = rows(kept.segments()), rows(anew.segments())
+    assert before.keys() == after.keys()
+    for name, (_, probability, count) in before.items():
+        assert after[name][1] == pytest.approx(probability, abs=1e-9)
+        assert after[name][2] == count

@@ -397,6 +397,18 @@ def test_blank_nodes_of_documents_are_distinct(case: Case) -> None:
     assert len(case.rows("SELECT ?s { GRAPH ?g { ?s ?p ?s } }")) == 1
 
 
+def test_several_graphs_at_once(case: Case) -> None:
+    case.update(DATA)
+    good = Document(TURTLE, b"<a> <urn:p> 7 .", BASE)
+    with pytest.raises(DocumentError):
+        case.do(case.store.replace_graphs({G: good, H: Document(TURTLE, b"<a> <urn:p>", BASE)}))
+    query = "SELECT ?o { GRAPH ?g { ?s ?p ?o } }"
+    assert sorted(case.rows(query)) == [["1"], ["2"]]
+    empty = Document(TURTLE, b"", BASE)
+    case.do(case.store.replace_graphs({G: good, H: empty, f"{H}2": good}))
+    assert sorted(case.rows(query)) == [["7"], ["7"]]
+
+
 @every_way
 def test_graphs_that_are_not_there(case: Case) -> None:
     assert case.do(case.store.has_graph(G)) is False

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from email.message import Message
 from email.utils import parsedate_to_datetime
-from typing import Annotated
+from typing import IO, Annotated
 
 import typer
 
@@ -17,6 +17,7 @@ from symboslam.errors import InputError, ServiceError
 URL = "http://127.0.0.1:8080"
 _LATER = (429, 503)
 _TRIES = 20
+_PIECE = 256 * 1024
 _LONGEST_WAIT = 120  # seconds
 
 TokenOption = Annotated[
@@ -104,7 +105,24 @@ class Client:
             raise InputError(f"{self.url} leads to {reply.headers.get('Location')}: give that one")
         return reply
 
-    def _send(self, path: str, body: bytes, headers: Mapping[str, str]) -> Reply:
+    def save(self, path: str, target: IO[bytes], tell: Callable[[int], None]) -> None:
+        """Ask for something that can be large, and write it to a file; errors as in `post`.
+
+        Args:
+            path: below the service's address.
+            target: what is written to.
+            tell: is told how many bytes have come.
+        """
+        reply = self._send(path, b"", {}, target, tell)
+        if reply.status >= 500:
+            raise ServiceError(f"{self.url}: {_detail(reply)}")
+        if reply.status >= 300:
+            raise InputError(_detail(reply))
+
+    def _send(
+        self, path: str, body: bytes, headers: Mapping[str, str],
+        target: IO[bytes] | None = None, tell: Callable[[int], None] | None = None,
+    ) -> Reply:  # fmt: skip
         import http.client
         from urllib.error import HTTPError
         from urllib.request import HTTPRedirectHandler, Request, build_opener
@@ -120,6 +138,11 @@ class Client:
             request.add_header("Authorization", f"Bearer {self._token}")
         try:
             with build_opener(Stay).open(request, timeout=self._timeout) as response:
+                size = 0
+                while target is not None and (piece := response.read(_PIECE)):
+                    size += target.write(piece)
+                    if tell is not None:
+                        tell(size)
                 return Reply(response.status, response.headers, response.read())
         except HTTPError as error:
             with error:

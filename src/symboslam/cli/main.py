@@ -17,6 +17,7 @@ from symboslam.cli import (
     query,
     serve,
     show,
+    store,
     token,
     validate,
     why,
@@ -46,6 +47,7 @@ app.command("why", epilog=why.EXAMPLES)(why.why)
 app.add_typer(ontology.app, name="ontology")
 app.add_typer(cq.app, name="cq")
 app.add_typer(token.app, name="token")
+app.add_typer(store.app, name="store")
 
 
 def _version(wanted: bool) -> None:

@@ -113,6 +113,7 @@ def _run(settings: Settings, listening: socket.socket, open_: bool) -> None:
 
     from symboslam.service import logs
     from symboslam.service.app import create_app
+    from symboslam.service.database import check_database
     from symboslam.service.server import Server
     from symboslam.service.store.opening import open_store
 
@@ -120,6 +121,7 @@ def _run(settings: Settings, listening: socket.socket, open_: bool) -> None:
     shown = f"[{host}]" if ":" in host else host
     address = settings.public_url or f"http://{shown}:{port}"
     logs.install(settings.log, settings.log_level)
+    check_database(settings.data)  # before anything is written
     status = Console(stderr=True).status("starting: opening the store, loading the ontology ...")
 
     def tell() -> None:
