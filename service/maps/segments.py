@@ -18,6 +18,7 @@ from symboslam.engine.writers.geojson import to_geojson
 from symboslam.engine.writers.options import reasons_wanted
 from symboslam.errors import UnknownNameError
 from symboslam.service.auth import CanQuery, CanUpdate
+from symboslam.service.maps import openapi
 from symboslam.service.maps.explaining import text_of
 from symboslam.service.maps.maps import base_of
 from symboslam.service.maps.models import (
@@ -49,7 +50,7 @@ class GeoJSONResponse(Response):
     media_type = GEOJSON
 
 
-@router.get("/landmarks", summary="Landmarks", response_class=GeoJSONResponse)
+@router.get("/landmarks", summary="Landmarks", response_class=GeoJSONResponse, **openapi.COLLECTION)
 async def get_landmarks(
     running: CurrentMap,
     _: CanQuery,
@@ -99,7 +100,7 @@ def _landmarks(live: LiveMap, feature: int | None, limit: int, offset: int) -> s
     return json.dumps({**head, "features": features}, ensure_ascii=False)
 
 
-@router.get("/segments", summary="Segments", response_class=GeoJSONResponse)
+@router.get("/segments", summary="Segments", response_class=GeoJSONResponse, **openapi.COLLECTION)
 async def get_segments(
     running: CurrentMap,
     maps: CurrentMaps,
@@ -123,7 +124,7 @@ async def get_segments(
 
 
 @router.get("/segments/{segment}/explanation", summary="Why?", responses={
-    200: {"content": {"text/plain": {}}},
+    200: {"content": {"text/plain": {"schema": {"type": "string"}}}},
 })  # fmt: skip
 async def explain(
     request: Request,
@@ -211,7 +212,7 @@ async def delete_override(
         await running.override(replace(each, undone=_now()))
 
 
-@router.get("/export", summary="The map as a file", response_class=Response)
+@router.get("/export", summary="The map as a file", response_class=Response, **openapi.EXPORT)
 async def export(
     running: CurrentMap,
     _: CanQuery,

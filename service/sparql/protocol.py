@@ -27,7 +27,7 @@ from symboslam.service.responses import (
     unless_disconnected,
 )
 from symboslam.service.settings import Settings
-from symboslam.service.sparql import negotiation, tokens
+from symboslam.service.sparql import negotiation, openapi, tokens
 from symboslam.service.sparql.description import describe
 from symboslam.service.store._base import Query, QueryError, Store
 from symboslam.service.vocabulary import FORM, SPARQL_QUERY, SPARQL_UPDATE
@@ -37,7 +37,9 @@ PATH = "/sparql"
 _POSTED = f"{SPARQL_QUERY}, {SPARQL_UPDATE} or {FORM}"
 
 
-@router.get(PATH, summary="Query, or describe the service", response_class=Response)
+@router.get(
+    PATH, summary="Query, or describe the service", response_class=Response, **openapi.QUERY
+)
 @router.get(PATH + "/", include_in_schema=False)
 @router.head(PATH, include_in_schema=False)
 @router.head(PATH + "/", include_in_schema=False)
@@ -51,13 +53,16 @@ async def query_by_get(
         raise Problem(400, "update-by-get", detail)
     text = parameters.find("query")
     if text is None:
+        for name in ("default-graph-uri", "named-graph-uri"):
+            parameters.iris(name)
         return await describe(request, settings, store)
     return await _query(request, settings, store, text, parameters)
 
 
 @router.post(
-    PATH, summary="Query or update", response_class=Response, dependencies=[declare("query")]
-)
+    PATH, summary="Query or update", response_class=Response, dependencies=[declare("query")],
+    **openapi.QUERY_OR_UPDATE,
+)  # fmt: skip
 @router.post(PATH + "/", include_in_schema=False)
 async def query_or_update_by_post(
     request: Request, settings: CurrentSettings, store: CurrentStore
