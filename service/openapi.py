@@ -120,8 +120,18 @@ def _complete(document: dict[str, Any], public_read: bool) -> None:
             operation = item[method]
             if public_read and operation.get("security") == [{"token": ["query"]}]:
                 operation["security"].insert(0, {})
+            for parameter in operation.get("parameters", []):
+                _without_null(parameter)
             _responses(operation, has_name="{" in path)
     _link(document["paths"])
+
+
+def _without_null(parameter: dict[str, Any]) -> None:
+    """Leave a parameter out, or give it; JSON's null cannot be sent in an address or header."""
+    schema = parameter["schema"]
+    if {"type": "null"} in (kinds := schema.get("anyOf", [])):
+        (kind,) = (each for each in kinds if each != {"type": "null"})
+        parameter["schema"] = {**{k: v for k, v in schema.items() if k != "anyOf"}, **kind}
 
 
 def _link(paths: dict[str, Any]) -> None:

@@ -168,7 +168,7 @@ async def start_job(
     """
     if jobs.waiting >= _MOST_WAITING:
         detail = f"{jobs.waiting} files are waiting already"
-        raise Problem(503, "too-busy", detail, headers={"Retry-After": "10"})
+        raise Problem(429, "too-many-files", detail, headers={"Retry-After": "10"})
     assert set(FORMATS) == {"geojson", "csv", "osm"}
     file = jobs.folder / token_hex(8)
     try:

@@ -109,13 +109,13 @@ async def list_maps(
 
 
 @router.get("/{map_id}", summary="A map")
-async def get_map(running: CurrentMap, maps: CurrentMaps, _: CanQuery) -> MapInfo:
+async def get_map(_: CanQuery, running: CurrentMap, maps: CurrentMaps) -> MapInfo:
     """What is known of a map."""
     return await info(running, maps)
 
 
 @router.delete("/{map_id}", status_code=204, summary="Remove a map")
-async def delete_map(map_id: str, running: CurrentMap, maps: CurrentMaps, _: AdminOnly) -> None:
+async def delete_map(_: AdminOnly, map_id: str, running: CurrentMap, maps: CurrentMaps) -> None:
     """Remove a map, its landmarks and all that the store says of it."""
     await maps.remove(map_id)
 
@@ -123,9 +123,9 @@ async def delete_map(map_id: str, running: CurrentMap, maps: CurrentMaps, _: Adm
 @router.post("/{map_id}/observations", summary="Send observations", **openapi.OBSERVATIONS)
 async def post_observations(
     request: Request,
+    _: CanIngest,
     running: CurrentMap,
     settings: CurrentSettings,
-    _: CanIngest,
     idempotency_key: Annotated[str | None, Header(min_length=1, max_length=200)] = None,
     agent: Annotated[str | None, Query(max_length=256)] = None,
     crs: Annotated[str | None, Query(max_length=200)] = None,
@@ -166,8 +166,8 @@ def _read(
 
 @router.get("/{map_id}/events", summary="Watch a map", response_class=EventSourceResponse)
 async def watch(
-    running: CurrentMap,
     _: CanQuery,
+    running: CurrentMap,
     last_event_id: Annotated[int | None, Header(ge=0)] = None,
 ) -> AsyncIterator[ServerSentEvent]:
     """Server-sent events: `change` with the segments that changed; `reset`: read the map anew.

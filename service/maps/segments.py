@@ -52,8 +52,8 @@ class GeoJSONResponse(Response):
 
 @router.get("/landmarks", summary="Landmarks", response_class=GeoJSONResponse, **openapi.COLLECTION)
 async def get_landmarks(
-    running: CurrentMap,
     _: CanQuery,
+    running: CurrentMap,
     feature: Annotated[str | None, Query(alias="class", max_length=200)] = None,
     limit: Annotated[int, Query(ge=1, le=1_000_000)] = 100_000,
     offset: Annotated[int, Query(ge=0, le=10**9)] = 0,
@@ -102,9 +102,9 @@ def _landmarks(live: LiveMap, feature: int | None, limit: int, offset: int) -> s
 
 @router.get("/segments", summary="Segments", response_class=GeoJSONResponse, **openapi.COLLECTION)
 async def get_segments(
+    _: CanQuery,
     running: CurrentMap,
     maps: CurrentMaps,
-    _: CanQuery,
     reasons: Annotated[int, Query(ge=0, le=100)] = 0,
 ) -> Response:
     """Segments as polygons with types and probabilities, and the overrides in force."""
@@ -128,10 +128,10 @@ async def get_segments(
 })  # fmt: skip
 async def explain(
     request: Request,
+    _: CanQuery,
     running: CurrentMap,
     maps: CurrentMaps,
     segment: str,
-    _: CanQuery,
     length: Length = "paragraph",
     against: Annotated[str | None, Query(max_length=200)] = None,
 ) -> ExplanationInfo:
@@ -170,7 +170,7 @@ async def explain(
 
 
 @router.get("/overrides", summary="Overrides")
-async def list_overrides(running: CurrentMap, maps: CurrentMaps, _: CanQuery) -> list[OverrideInfo]:
+async def list_overrides(_: CanQuery, running: CurrentMap, maps: CurrentMaps) -> list[OverrideInfo]:
     """All overrides, the oldest first; those taken back included."""
     found = await asyncio.to_thread(maps.records.overrides, running.record.id)
     return [_info(each, running) for each in found]
@@ -178,7 +178,7 @@ async def list_overrides(running: CurrentMap, maps: CurrentMaps, _: CanQuery) ->
 
 @router.put("/segments/{segment}/override", summary="Override a segment")
 async def put_override(
-    running: CurrentMap, maps: CurrentMaps, segment: str, wanted: OverrideRequest, who: CanUpdate
+    who: CanUpdate, running: CurrentMap, maps: CurrentMaps, segment: str, wanted: OverrideRequest
 ) -> OverrideInfo:
     """State that a segment is of another type; what was worked out stays beside it.
 
@@ -202,7 +202,7 @@ async def put_override(
 
 @router.delete("/segments/{segment}/override", status_code=204, summary="Take an override back")
 async def delete_override(
-    running: CurrentMap, maps: CurrentMaps, segment: str, _: CanUpdate
+    _: CanUpdate, running: CurrentMap, maps: CurrentMaps, segment: str
 ) -> None:
     """Take the override of a segment back; it stays on record."""
     mine = [each for each in await _overrides(running, maps) if each.segment == segment]
@@ -214,8 +214,8 @@ async def delete_override(
 
 @router.get("/export", summary="The map as a file", response_class=Response, **openapi.EXPORT)
 async def export(
-    running: CurrentMap,
     _: CanQuery,
+    running: CurrentMap,
     format: Literal["geojson", "ttl", "nq", "png", "html"] = "geojson",
     reasons: Annotated[int | None, Query(ge=0, le=100)] = None,
 ) -> Response:

@@ -72,10 +72,8 @@ class Statements:
 
     def change(self, change: Change, ended: datetime) -> tuple[str, str]:
         """The statements that a change takes back, and those that it adds."""
-        before, after = (
-            [each for each in side if each is not None]
-            for side in zip(*change.landmarks.values(), strict=True)
-        )
+        before = [each for each, _ in change.landmarks.values() if each is not None]
+        after = [each for _, each in change.landmarks.values() if each is not None]
         removed, added = self._of_landmarks(before), self._of_landmarks(after)
         self._agents.update(each.agent for each in after if each.agent)
         told = change.changed or self._live.described(after)

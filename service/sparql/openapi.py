@@ -46,10 +46,8 @@ def _graph(required: bool) -> dict[str, Any]:
         "description": "The graph: either `graph=IRI` or `default`.",
         "schema": {
             "type": "object",
-            "oneOf": [
-                {"required": [name], "properties": {name: schema}, "additionalProperties": False}
-                for name, schema in (("graph", named), ("default", unnamed))
-            ],
+            "properties": {"graph": named, "default": unnamed},
+            "oneOf": [{"required": ["graph"]}, {"required": ["default"]}],
         },
     }  # fmt: skip
 
