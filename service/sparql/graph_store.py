@@ -61,7 +61,7 @@ async def get_graph(
     with problems_of_the_store():
         if await store.has_graph(graph) and (same := not_modified(request, tag)):
             return same
-        async with turn(request):
+        with turn(request):
             answer = await unless_disconnected(request, store.read_graph(graph, kind, gzip))
     return respond(request, answer, tag)
 

@@ -132,7 +132,7 @@ async def _query(
         tag = etag(store.version, query)
         if same := not_modified(request, tag):
             return same
-    async with turn(request):
+    with turn(request):
         with problems_of_the_store(), _prefixes_explained(text):
             answer = await unless_disconnected(request, store.query(query))
     return respond(request, answer, tag)
@@ -157,7 +157,7 @@ async def _update(
         detail = f"the dataset is given twice: by the request and by {error} in the update"
         raise Problem(400, "dataset-conflict", detail) from error
     base = _base(request, settings)
-    async with turn(request):
+    with turn(request):
         with problems_of_the_store(), _prefixes_explained(text):
             await store.update(text, base)
     return Response(status_code=204)
