@@ -21,7 +21,14 @@ from symboslam.engine.live import LiveMap
 from symboslam.engine.sightings import Sightings
 from symboslam.engine.table import Landmark
 from symboslam.engine.writers.vocabulary import MAPS
-from symboslam.errors import InputError, StoreError, UnknownNameError
+from symboslam.errors import (
+    InputError,
+    MissingExtraError,
+    OntologyError,
+    ReasonerError,
+    StoreError,
+    UnknownNameError,
+)
 from symboslam.reasoning.knowledge import Knowledge
 from symboslam.service.maps.records import MapRecord, Records
 from symboslam.service.maps.running import RunningMap, add_left_out, report_of
@@ -89,10 +96,11 @@ class Maps:
         """The name by which `knowledge` knows an ontology; a graph is copied as it is now.
 
         Raises:
-            InputError: there is no such graph.
+            InputError: there is no such graph, or it cannot be used as an ontology.
         """
-        if ontology in (None, BUNDLED):
+        if ontology is None or ontology == BUNDLED:
             return BUNDLED
+        check_iri(ontology, "ontology")
         try:
             answer = await self._store.read_graph(ontology, N_TRIPLES, gzip=False)
         except MissingGraphError as error:
@@ -105,11 +113,22 @@ class Maps:
                 data = await asyncio.to_thread(file.read)
         name = f"{hashlib.sha256(data).hexdigest()[:32]}.nt"
 
-        def keep() -> None:
-            self._ontologies.mkdir(parents=True, exist_ok=True)
-            (self._ontologies / name).write_bytes(data)
+        path = self._ontologies / name
 
-        await asyncio.to_thread(keep)
+        def keep() -> bool:
+            self._ontologies.mkdir(parents=True, exist_ok=True)
+            new = not path.exists()
+            path.write_bytes(data)
+            return new
+
+        new = await asyncio.to_thread(keep)
+        try:
+            await self.knowledge(name)
+        except (OntologyError, ReasonerError, MissingExtraError) as error:
+            if new:
+                path.unlink()
+            problem = str(error).replace(str(path), f"<{ontology}>")
+            raise InputError(f"ontology <{ontology}>: {problem}") from error
         return name
 
     async def create(
@@ -214,6 +233,20 @@ class Maps:
             Statements(live, base_of(record.id), options["reasons"]),
             Sightings(live.table, options["merge_radius"], names), self.records, self._store,
         )  # fmt: skip
+
+
+def check_iri(text: str, what: str) -> None:
+    """Check that a text is an absolute IRI.
+
+    Raises:
+        InputError: it is not.
+    """
+    import pyoxigraph
+
+    try:
+        pyoxigraph.NamedNode(text)
+    except ValueError as error:
+        raise InputError(f"{what}: {text[:80]!r} is not an absolute IRI: {error}") from error
 
 
 def base_of(identifier: str) -> str:
