@@ -33,23 +33,26 @@ TRIPLES = "?a ?b ?c . ?d ?e ?f . ?g ?h ?i . ?j ?k ?l"
 DOUBLED = " ".join(f"BIND(CONCAT(?s{i}, ?s{i}) AS ?s{i + 1})" for i in range(40))
 DEEP = 20_000
 
-QUERIES = {
+QUERIES: dict[str, str | bytes] = {
     "cartesian product": f"SELECT (COUNT(*) AS ?n) {{ {CROSS} }}",
     "cartesian product of all triples": f"SELECT (COUNT(*) AS ?n) {{ {TRIPLES} }}",
     "rows without end": f"SELECT * {{ {CROSS} }}",
     "sorting a cartesian product": f"SELECT * {{ {TRIPLES} }} ORDER BY ?l ?a ?g LIMIT 5",
     "distinct rows of one": f"SELECT DISTINCT * {{ {TRIPLES} }}",
     "grouping one": f"SELECT ?a (GROUP_CONCAT(?l) AS ?x) {{ {TRIPLES} }} GROUP BY ?a",
-    "joining all texts": "SELECT (GROUP_CONCAT(CONCAT(STR(?a), STR(?d))) AS ?x) { " + TRIPLES + " }",
+    "joining all texts": f"SELECT (GROUP_CONCAT(CONCAT(STR(?a), STR(?d))) AS ?x) {{ {TRIPLES} }}",
     "a graph without end": f"CONSTRUCT {{ ?a ?b ?l . ?d ?e ?a }} WHERE {{ {TRIPLES} }}",
     "a hub described": "DESCRIBE ?a ?c { ?a ?b ?c . ?d ?e ?f }",
-    "regular expression": "ASK { FILTER(REGEX('" + "a" * 9000 + "', '(a+)+$|(a|a)*b|" + "(a*)*" * 900
+    "regular expression": "ASK { FILTER(REGEX('" + "a" * 9000 + "', '(a+)+$|(a|a)*b|"
+    + "(a*)*" * 900
     + "'))}",
     "huge repetition": "ASK { FILTER(REGEX('aaa', '((((a{1000}){1000}){1000}){1000})b')) }",
-    "alternating path": "SELECT (COUNT(*) AS ?n) { ?x (<urn:p>|<urn:q>)* ?y . ?y (<urn:p>|<urn:q>)* ?z"
-    " . ?z (<urn:q>|^<urn:p>)* ?w }",
-    "negated paths": "SELECT (COUNT(*) AS ?n) { ?x (!<urn:z>)* ?y . ?y (!<urn:y>)+ ?z . ?z (^!<urn:x>)* ?w }",
-    "deep path": "SELECT * { ?s " + "(" * 60 + "<urn:p>" + ")*" * 60 + " ?o . ?o <urn:q>* ?u . ?u <urn:p>* ?v }",
+    "alternating path": "SELECT (COUNT(*) AS ?n) { ?x (<urn:p>|<urn:q>)* ?y ."
+    " ?y (<urn:p>|<urn:q>)* ?z . ?z (<urn:q>|^<urn:p>)* ?w }",
+    "negated paths": "SELECT (COUNT(*) AS ?n) { ?x (!<urn:z>)* ?y . ?y (!<urn:y>)+ ?z ."
+    " ?z (^!<urn:x>)* ?w }",
+    "deep path": "SELECT * { ?s " + "(" * 60 + "<urn:p>" + ")*" * 60
+    + " ?o . ?o <urn:q>* ?u . ?u <urn:p>* ?v }",
     "doubling texts": f"SELECT (STRLEN(?s40) AS ?n) {{ BIND('0123456789' AS ?s0) {DOUBLED} }}",
     "replacing": "SELECT (STRLEN(?y) AS ?n) { BIND(REPLACE('" + "a" * 3200
     + "', 'a', '" + "b" * 3200 + "') AS ?x) BIND(REPLACE(?x, 'b', '" + "c" * 999 + "') AS ?y) }",
@@ -69,7 +72,7 @@ QUERIES = {
     "a lone surrogate": "SELECT ('\\uD800' AS ?x) {}",
     "no text": b"ASK { <urn:\xff\xfe> ?p '\xc3\x28' }",
 }  # fmt: skip
-UPDATES = {
+UPDATES: dict[str, str | bytes] = {
     "LOAD": "LOAD <http://127.0.0.1:1/>",
     "LOAD in disguise": "l\\u004fAD SILENT <file:///etc/passwd>",
     "nested groups": "INSERT { <urn:s> <urn:p> 1 } WHERE " + "{" * DEEP + "}" * DEEP,
@@ -106,14 +109,14 @@ def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
     """A server in a process of its own, as ``symboslam serve`` is."""
     settings = {
         "SYMBOSLAM_WORKERS": WORKERS, "SYMBOSLAM_QUICK_WORKERS": QUICK,
-        "SYMBOSLAM_WORKER_MEMORY": WORKER_MEMORY, "SYMBOSLAM_QUERY_SECONDS": 2,
+        "SYMBOSLAM_WORKER_MEMORY": WORKER_MEMORY, "SYMBOSLAM_QUERY_SECONDS": 1,
         "SYMBOSLAM_QUEUE_SECONDS": 2, "SYMBOSLAM_BODY_SECONDS": 3,
         "SYMBOSLAM_BUNDLED_ONTOLOGY": "false", "SYMBOSLAM_ADMIN_TOKEN": TOKEN,
     }  # fmt: skip
     with serving(tmp_path_factory.mktemp("hostile"), settings) as found:
         ring = "".join(
-            f"<urn:{i}> <urn:p> <urn:{(i + 1) % NODES}> ; <urn:q> <urn:{i * 7 % NODES}>, <urn:hub> ."
-            f" <urn:hub> <urn:r> <urn:{i}> .\n"
+            f"<urn:{i}> <urn:p> <urn:{(i + 1) % NODES}> ; <urn:q> <urn:{i * 7 % NODES}>, <urn:hub>"
+            f" . <urn:hub> <urn:r> <urn:{i}> .\n"
             for i in range(NODES)
         )
         data = f"INSERT DATA {{ {ring} GRAPH <urn:simple> {{ <urn:a> <urn:b> 42 }} }}"
