@@ -110,7 +110,7 @@ def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
     settings = {
         "SYMBOSLAM_WORKERS": WORKERS, "SYMBOSLAM_QUICK_WORKERS": QUICK,
         "SYMBOSLAM_WORKER_MEMORY": WORKER_MEMORY, "SYMBOSLAM_QUERY_SECONDS": 1,
-        "SYMBOSLAM_QUEUE_SECONDS": 2, "SYMBOSLAM_BODY_SECONDS": 3,
+        "SYMBOSLAM_BODY_SECONDS": 3,
         "SYMBOSLAM_BUNDLED_ONTOLOGY": "false", "SYMBOSLAM_ADMIN_TOKEN": TOKEN,
     }  # fmt: skip
     with serving(tmp_path_factory.mktemp("hostile"), settings) as found:
