@@ -44,7 +44,7 @@ demo: $(STAMP) ## make a sample town, classify it, write an explained map
 	echo "Open in a browser: $$(pwd)/demo/map.html"
 
 test: $(STAMP) ## run the tests (some minutes)
-	@$(PY) -m pytest -m "not slow and not network"
+	@$(PY) -m pytest -n 2 --dist loadfile -m "not slow and not network"
 
 test-slow: $(STAMP) ## run the long tests as well
 	@$(PY) -m pytest -m "not network"

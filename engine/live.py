@@ -177,7 +177,7 @@ class LiveMap:
             here = np.flatnonzero(segments.names == name)
             if len(here):
                 return self._map(segments.take(here))
-        raise UnknownNameError(f"no segment {name!r} in this map")
+        raise UnknownNameError(f"no segment {name[:80]!r} in this map")
 
     def catch_up(self) -> Change | None:
         """Classify anew what was touched since the last call; None if nothing was."""

@@ -13,8 +13,8 @@ from starlette.middleware.gzip import GZipMiddleware
 
 from symboslam import __version__
 from symboslam.errors import StoreError
-from symboslam.service import backup_api, health, metrics, problems, tokens_api
-from symboslam.service.auth import Authenticator, describe_public_reading
+from symboslam.service import backup_api, health, metrics, openapi, problems, tokens_api
+from symboslam.service.auth import Authenticator
 from symboslam.service.backup import STAGING
 from symboslam.service.database import check_database, lock_folder, open_database
 from symboslam.service.examples import routes as examples
@@ -98,8 +98,7 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
     app.state.limits = _limits(settings)
     app.state.metrics = metrics.Metrics()
     problems.install(app)
-    if settings.public_read:
-        describe_public_reading(app)
+    openapi.install(app, public_read=settings.public_read)
     # What is added later is further out. Gzip leaves event streams alone.
     app.add_middleware(GZipMiddleware, minimum_size=1000, compresslevel=5)
     app.add_middleware(

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from hashlib import sha256
 from typing import Annotated, Any
 
-from fastapi import Depends, FastAPI, Request, Security
+from fastapi import Depends, Request, Security
 from fastapi.security import HTTPBearer
 
 from symboslam.errors import StoreError
@@ -137,21 +137,6 @@ CanQuery = Annotated[Identity, Depends(_require("query"))]
 CanIngest = Annotated[Identity, Depends(_require("ingest"))]
 CanUpdate = Annotated[Identity, Depends(_require("update"))]
 AdminOnly = Annotated[Identity, Depends(_require("admin"))]
-
-
-def describe_public_reading(app: FastAPI) -> None:
-    """Let the OpenAPI description say that what needs ``query`` needs no token."""
-    plain = app.openapi
-
-    def openapi() -> dict[str, Any]:
-        if app.openapi_schema is None:
-            for operations in plain()["paths"].values():
-                for operation in operations.values():
-                    if operation.get("security") == [{_SCHEME: ["query"]}]:
-                        operation["security"].insert(0, {})
-        return plain()
-
-    app.openapi = openapi  # type: ignore[method-assign]
 
 
 def _digest(text: str) -> bytes:

@@ -13,6 +13,7 @@ import time
 from collections import Counter, OrderedDict
 from collections.abc import AsyncIterator, Callable, Iterator, Mapping
 from contextlib import asynccontextmanager, contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, field
 from ipaddress import IPv4Address, IPv6Address, ip_address
 from typing import Any
@@ -169,11 +170,11 @@ class Limits:
                 del self._running[client]
 
     @asynccontextmanager
-    async def turn(self, client: str | None) -> AsyncIterator[None]:
+    async def turn(self, client: str | None, *, wait: bool = True) -> AsyncIterator[None]:
         """One query or update more of a client; it waits until it is its turn.
 
         Raises:
-            Problem: 429 where that takes too long.
+            Problem: 429 where that takes too long, or any time without ``wait``.
         """
         if client is None or self._queries is None:
             yield
@@ -182,7 +183,7 @@ class Limits:
         queue.users += 1
         try:
             try:
-                async with asyncio.timeout(self._seconds):
+                async with asyncio.timeout(self._seconds if wait else 0):
                     await queue.turns.acquire()
             except TimeoutError as error:
                 detail = f"more than {self._queries} queries at a time for {self._seconds:g} s"
@@ -197,12 +198,43 @@ class Limits:
                 del self._queues[client]
 
 
-@asynccontextmanager
-async def turn(request: Request) -> AsyncIterator[None]:
-    """What a handler holds while a worker is busy for it; its errors are those of `Limits.turn`."""
+@dataclass(frozen=True)
+class _Asker:
+    limits: Limits
+    client: str | None
+    connection: str
+
+
+_ASKER: ContextVar[_Asker | None] = ContextVar("asker", default=None)
+
+
+@contextmanager
+def turn(request: Request) -> Iterator[None]:
+    """Let stores know for whom they work, so that they can ask for `long_turn`."""
     identity = request.state.identity
     client = client_of(request.scope, identity.id if identity else None)
-    async with request.app.state.limits.turn(client):
+    connection = client if identity and identity.id else str(request.scope.get("client"))
+    before = _ASKER.set(_Asker(request.app.state.limits, client, str(connection)))
+    try:
+        yield
+    finally:
+        _ASKER.reset(before)
+
+
+def connection() -> str | None:
+    """The token, or else the connection, of whom a store works for."""
+    asker = _ASKER.get()
+    return None if asker is None else asker.connection
+
+
+@asynccontextmanager
+async def long_turn(*, wait: bool = True) -> AsyncIterator[None]:
+    """What a store holds while it works for long; its errors are those of `Limits.turn`."""
+    asker = _ASKER.get()
+    if asker is None:
+        yield
+        return
+    async with asker.limits.turn(asker.client, wait=wait):
         yield
 
 

@@ -115,7 +115,13 @@ class _StoreCollector(Collector):
             yield CounterMetricFamily(name, text, value)
 
 
-@router.get("/metrics", summary="Figures for Prometheus", dependencies=[declare("admin")])
+@router.get(
+    "/metrics", summary="Figures for Prometheus", dependencies=[declare("admin")],
+    response_class=Response, openapi_extra={"security": [{}]}, responses={200: {"content": {
+        name: {"schema": {"type": "string"}}
+        for name in ("text/plain", "application/openmetrics-text")
+    }}},
+)  # fmt: skip
 async def metrics(request: Request) -> Response:
     """For whoever asks from this machine, and with the scope ``admin`` from elsewhere."""
     address = address_of(request.scope)

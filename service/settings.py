@@ -47,6 +47,8 @@ class Settings(BaseSettings):
         bundled_ontology: keep the bundled ontology in the store.
         cors_origins: origins whose pages may use the service, separated by commas; ``*``: all.
         workers: processes that answer queries, so many at a time.
+        quick_workers: further processes, for queries that are quick; 0: a query that takes long can
+            make quick ones wait.
         worker_memory: bytes of memory that one of them may take; 0: no limit.
         query_seconds: time limit of a query.
         queue_length: queries that may wait for a worker; the next one is turned away.
@@ -84,7 +86,8 @@ class Settings(BaseSettings):
     bundled_ontology: bool = True
     cors_origins: Annotated[tuple[str, ...], NoDecode] = ()
     workers: int = Field(max(2, os.cpu_count() or 2), ge=1, le=256)
-    worker_memory: int = Field(2048 * MIB, ge=0)
+    quick_workers: int = Field(2, ge=0, le=256)
+    worker_memory: int = Field(1024 * MIB, ge=0)
     query_seconds: float = Field(30.0, gt=0)
     queue_length: int = Field(64, ge=0)
     queue_seconds: float = Field(10.0, ge=0)

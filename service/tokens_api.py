@@ -81,7 +81,7 @@ async def list_tokens(tokens: CurrentTokens, _: AdminOnly) -> list[TokenInfo]:
 async def delete_token(identifier: str, tokens: CurrentTokens, _: AdminOnly) -> None:
     """Make a token useless from now on."""
     if not await asyncio.to_thread(tokens.remove, identifier):
-        raise Problem(404, "no-such-token", f"there is no token {identifier!r}")
+        raise Problem(404, "no-such-token", f"there is no token {identifier[:80]!r}")
 
 
 def _info(token: Token) -> TokenInfo:

@@ -1,4 +1,10 @@
-"""The pool of processes that answer queries: killed at the time limit, and replaced."""
+"""The pool of processes that answer queries: killed at the time limit, and replaced.
+
+Whether a query is quick shows when it runs. Some processes are for quick ones alone: a query that
+is not done in `QUICK_SECONDS` needs one of the places for long ones, or is stopped, and begins anew
+when it has got one. So nobody who asks something simple waits for those who do not, whoever they
+are (docs/decisions/0014-quick-queries.md).
+"""
 
 from __future__ import annotations
 
@@ -7,15 +13,22 @@ import contextlib
 import json
 import os
 import sys
-from collections.abc import Awaitable, Callable
+from collections import OrderedDict, deque
+from collections.abc import AsyncIterator, Awaitable, Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, Any, TypeVar
 
+from symboslam.service.limits import connection, long_turn
+from symboslam.service.problems import Problem
 from symboslam.service.store._base import BusyError, CrashError, TimeLimitError
 
+T = TypeVar("T")
 _MODULE = "symboslam.service.store.reader"
 _LONGEST_LINE = 1024 * 1024
+QUICK_SECONDS = 0.25
+_PRIORITY_OF_LONG_ONES = 10
+_MOST_CONNECTIONS = 10_000
 
 
 @dataclass
@@ -40,11 +53,13 @@ class Worker:
 
     Attributes:
         snapshot: the folder that it has open, if it has.
+        stepped_back: it has a low priority, for good.
     """
 
     def __init__(self, process: asyncio.subprocess.Process, file: Path) -> None:
         self.process, self._file = process, file
         self.snapshot: str | None = None
+        self.stepped_back = False
 
     @classmethod
     async def start(cls, file: Path, memory: int) -> Worker:
@@ -82,6 +97,13 @@ class Worker:
         except (ConnectionError, asyncio.IncompleteReadError) as error:
             raise CrashError("the process ended") from error
 
+    def step_back(self) -> None:
+        """Let others have the processors first."""
+        self.stepped_back = True
+        if hasattr(os, "setpriority"):  # not on Windows
+            with contextlib.suppress(OSError):
+                os.setpriority(os.PRIO_PROCESS, self.process.pid, _PRIORITY_OF_LONG_ONES)
+
     async def kill(self) -> None:
         """End the process now, and what it has written."""
         with contextlib.suppress(ProcessLookupError):
@@ -92,12 +114,17 @@ class Worker:
         self._file.unlink(missing_ok=True)
 
 
+class _NotQuickError(Exception):
+    """It takes longer, and all places for such are taken."""
+
+
 class Pool:
     """Workers for one store.
 
     Args:
         spool: folder for results that are not small; emptied.
-        size: how many workers.
+        size: how many workers may be busy for long.
+        quick: how many more there are; 0: none is for quick requests alone.
         memory: bytes that each may take; 0: no limit.
         queue_length: requests that may wait.
         queue_seconds: how long they may.
@@ -109,12 +136,16 @@ class Pool:
     """
 
     def __init__(
-        self, spool: Path, *, size: int, memory: int, queue_length: int,
+        self, spool: Path, *, size: int, quick: int, memory: int, queue_length: int,
         queue_seconds: float,
     ) -> None:  # fmt: skip
-        self._spool, self._size, self._memory = spool, size, memory
+        self._spool, self._memory = spool, memory
+        self._quick, self._processes = quick, size + quick
+        self._places = asyncio.Semaphore(size)
         self._queue_length, self._queue_seconds = queue_length, queue_seconds
-        self._idle: asyncio.Queue[Worker] = asyncio.Queue()
+        self._idle: list[Worker] = []
+        self._queue: deque[tuple[asyncio.Future[Worker], bool]] = deque()
+        self._quick_before: OrderedDict[str | None, None] = OrderedDict()
         self._all: set[Worker] = set()
         self._replacing: set[asyncio.Task[None]] = set()
         self.waiting = self.timeouts = self.killed = 0
@@ -129,7 +160,7 @@ class Pool:
     @property
     def busy(self) -> int:
         """Workers that are not free: they answer, or start."""
-        return self._size - self._idle.qsize()
+        return self._processes - len(self._idle)
 
     @property
     def snapshots(self) -> set[str]:
@@ -146,7 +177,7 @@ class Pool:
         self._spool.mkdir(parents=True, exist_ok=True)
         for left in self._spool.iterdir():
             left.unlink()
-        await asyncio.gather(*(self._add() for _ in range(self._size)))
+        await asyncio.gather(*(self._add() for _ in range(self._processes)))
 
     async def stop(self) -> None:
         """Kill all workers, whatever they do."""
@@ -173,17 +204,48 @@ class Pool:
             TimeLimitError: the time was up; the worker was killed.
             CrashError: the worker ended by itself.
         """
+        if not self._quick:
+            async with long_turn():
+                return await self._ask(request, seconds, snapshot, long=True)
+        try:
+            return await self._ask(request, seconds, snapshot, long=False)
+        except _NotQuickError:
+            async with self._place():
+                return await self._ask(request, seconds, snapshot, long=True)
+
+    def _note(self, *, quick: bool) -> None:
+        """Remember whether the last request of a connection was quick."""
+        self._quick_before.pop(connection(), None)
+        if quick:
+            self._quick_before[connection()] = None
+            if len(self._quick_before) > _MOST_CONNECTIONS:
+                self._quick_before.popitem(last=False)
+
+    async def _ask(
+        self, request: dict[str, Any], seconds: float,
+        snapshot: Callable[[], Awaitable[str]] | None, *, long: bool,
+    ) -> Reply:  # fmt: skip
         worker = await self._get()
         if snapshot is not None:
             try:
                 request = {**request, "snapshot": await snapshot()}
             except BaseException:
-                self._idle.put_nowait(worker)
+                self._release(worker)
                 raise
             worker.snapshot = request["snapshot"]  # nothing can happen in between
         try:
-            async with asyncio.timeout(seconds):
-                reply = await worker.ask({**request, "seconds": seconds})
+            async with asyncio.timeout(seconds), contextlib.AsyncExitStack() as held:
+                work = asyncio.ensure_future(worker.ask({**request, "seconds": seconds}))
+                held.callback(work.cancel)
+                if not long:
+                    await asyncio.wait({work}, timeout=QUICK_SECONDS)
+                if not long:
+                    self._note(quick=work.done())
+                if not work.done() and self._quick:
+                    if not long:
+                        await held.enter_async_context(self._place(wait=False))
+                    worker.step_back()
+                reply = await work
         except TimeoutError as error:
             self.timeouts += 1
             self._replace(worker)
@@ -191,38 +253,87 @@ class Pool:
         except BaseException:  # it crashed, or whoever asked is gone: it may be in anything
             self._replace(worker)
             raise
-        self._idle.put_nowait(worker)
+        if worker.stepped_back:
+            self._replace(worker, killed=False)
+        else:
+            self._release(worker)
         return reply
 
-    async def _get(self) -> Worker:
-        with contextlib.suppress(asyncio.QueueEmpty):
-            return self._idle.get_nowait()
-        if self.waiting >= self._queue_length:
+    @contextlib.asynccontextmanager
+    async def _place(self, *, wait: bool = True) -> AsyncIterator[None]:
+        """A place among the requests that take long.
+
+        Raises:
+            _NotQuickError: without ``wait``: there is none.
+            BusyError, Problem: there was none in time.
+        """
+        async with contextlib.AsyncExitStack() as held:
+            try:
+                await held.enter_async_context(long_turn(wait=wait))
+                await self._wait(self._places.acquire(), self._places.locked(), wait)
+            except (BusyError, Problem) as error:
+                if wait:
+                    raise
+                raise _NotQuickError from error
+            held.callback(self._places.release)
+            yield
+
+    async def _wait(self, what: Awaitable[T], busy: bool, wait: bool = True) -> T:
+        """Wait for something, as long and with as many others as is allowed."""
+        if busy and (not wait or self.waiting >= self._queue_length):
+            if asyncio.iscoroutine(what):
+                what.close()
             raise BusyError(f"{self.waiting} queries are waiting already")
         self.waiting += 1
         try:
             async with asyncio.timeout(self._queue_seconds):
-                return await self._idle.get()
+                return await what
         except TimeoutError as error:
             raise BusyError(f"no worker came free in {self._queue_seconds:g} s") from error
         finally:
             self.waiting -= 1
+
+    async def _get(self) -> Worker:
+        if self._idle:
+            return self._idle.pop()
+        turn: asyncio.Future[Worker] = asyncio.get_running_loop().create_future()
+        waiting = turn, connection() in self._quick_before
+        self._queue.append(waiting)
+        try:
+            return await self._wait(turn, busy=True)
+        except BaseException:
+            if turn.done() and not turn.cancelled():
+                self._release(turn.result())
+            raise
+        finally:
+            with contextlib.suppress(ValueError):
+                self._queue.remove(waiting)
+
+    def _release(self, worker: Worker) -> None:
+        """Give a worker to one who waits: to the first whose last request was quick, if any."""
+        while self._queue:
+            chosen = next((each for each in self._queue if each[1]), self._queue[0])
+            self._queue.remove(chosen)
+            if not (turn := chosen[0]).done():
+                turn.set_result(worker)
+                return
+        self._idle.append(worker)
 
     async def _add(self) -> None:
         self._started += 1
         file = self._spool / f"{self._started}.result"
         worker = await Worker.start(file, self._memory)
         self._all.add(worker)
-        self._idle.put_nowait(worker)
+        self._release(worker)
 
-    def _replace(self, worker: Worker) -> None:
+    def _replace(self, worker: Worker, *, killed: bool = True) -> None:
         async def replace() -> None:
             await worker.kill()
             self._all.discard(worker)
             if not self._stopping:
                 await self._add()
 
-        self.killed += 1
+        self.killed += killed
         task = asyncio.create_task(replace())
         self._replacing.add(task)
         task.add_done_callback(self._replacing.discard)

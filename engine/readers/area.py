@@ -22,6 +22,8 @@ _EDGE = 64
 _SLIVER = 0.002
 """Share of the metric box outside the true area from which on the difference is kept."""
 _PAD = 100.0
+_FARTHEST = 1e9
+"""Units of any coordinate system; no local map reaches farther."""
 _SMALLEST = 0.001
 """Metres; a side below this is no side."""
 
@@ -79,6 +81,8 @@ def parse_box(values: object, what: str, system: CoordinateSystem) -> Box:
             )
         if west > east and west > 0 > east:
             raise GeometryError(f"{what} {shown} {_ANTIMERIDIAN}")
+    elif max(map(abs, (west, south, east, north))) > _FARTHEST:
+        raise GeometryError(f"{what} {shown} reaches farther than {_FARTHEST:g}: {order}")
     if west > east or south > north:
         raise GeometryError(f"{what} {shown} has its minimum above its maximum: {order}")
     if west == east or south == north:

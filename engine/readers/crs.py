@@ -92,7 +92,7 @@ def coordinate_system(name: str, source: str = "") -> CoordinateSystem:
                 "give a geographic or projected one such as EPSG:4326, or m for local metres"
             )
         transformer = Transformer.from_crs(crs, DEGREES, always_xy=True)
-    except (CRSError, ProjError) as error:
+    except (CRSError, ProjError, ValueError) as error:
         raise GeometryError(
             f"{prefix}unknown coordinate system {name!r}: "
             "give one such as EPSG:28355, OGC:CRS84, or m for local metres"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -107,14 +107,23 @@ def from_object(document: object, name: str, knowledge: FeatureIndex) -> Columns
     )
 
 
-def parse(data: bytes, name: str) -> object:
+def parse(
+    data: bytes | str,
+    name: str,
+    hook: Callable[[list[tuple[str, Any]]], dict[str, Any]] | None = None,
+) -> object:
     """The JSON of a file.
+
+    Args:
+        data: its content.
+        name: the file, for messages.
+        hook: makes an object of its members.
 
     Raises:
         LandmarkError: it is none.
     """
     try:
-        return json.loads(data)
+        return json.loads(data, object_pairs_hook=hook)
     except json.JSONDecodeError as error:
         cut = error.pos >= len(error.doc.rstrip()) or "Unterminated" in error.msg
         problem = f"this is not valid JSON ({error.msg})"

@@ -18,9 +18,11 @@ from symboslam.errors import SymboSlamError
 from symboslam.reasoning.knowledge import Knowledge
 from symboslam.service.auth import CanIngest, CanQuery
 from symboslam.service.dependencies import CurrentSettings
+from symboslam.service.maps import openapi
 from symboslam.service.maps.maps import Maps
 from symboslam.service.maps.models import JobInfo, Options
 from symboslam.service.maps.routes import CurrentMaps, options_of
+from symboslam.service.openapi import made
 from symboslam.service.problems import Problem
 from symboslam.service.requests import body_to_file
 
@@ -28,6 +30,7 @@ router = APIRouter(prefix="/v1/jobs", tags=["Jobs"])
 _KEPT = 1000
 _AT_A_TIME = 1
 _MOST_WAITING = 8
+_BOX = r"^-?\d+(\.\d+)?(,-?\d+(\.\d+)?){3}$"
 
 
 @dataclass
@@ -139,11 +142,9 @@ def _jobs(request: Request) -> Jobs:
 CurrentJobs = Annotated[Jobs, Depends(_jobs)]
 
 
-@router.post("", status_code=202, summary="Classify a file", openapi_extra={
-    "requestBody": {"required": True, "content": {
-        "application/octet-stream": {"schema": {"type": "string", "format": "binary"}},
-    }},
-})  # fmt: skip
+@router.post(
+    "", status_code=202, summary="Classify a file", responses=made("The job.", 202), **openapi.FILE
+)
 async def start_job(
     request: Request,
     maps: CurrentMaps,
@@ -151,10 +152,12 @@ async def start_job(
     settings: CurrentSettings,
     response: Response,
     _: CanIngest,
-    name: Annotated[str, Query(min_length=1, max_length=200)],
+    name: Annotated[str, Query(min_length=1, max_length=200, pattern=openapi.TEXT)],
     format: Literal["geojson", "csv", "osm"],
     crs: Annotated[str | None, Query(max_length=200)] = None,
-    bbox: Annotated[str | None, Query(max_length=200, examples=["149.1,-35.3,149.2,-35.2"])] = None,
+    bbox: Annotated[
+        str | None, Query(max_length=200, pattern=_BOX, examples=["149.1,-35.3,149.2,-35.2"])
+    ] = None,
     profile: Literal["default", "paper"] = "default",
     scheme: Annotated[str | None, Query(max_length=200)] = None,
     ontology: Annotated[str | None, Query(max_length=2000)] = None,
@@ -165,17 +168,19 @@ async def start_job(
     """
     if jobs.waiting >= _MOST_WAITING:
         detail = f"{jobs.waiting} files are waiting already"
-        raise Problem(503, "too-busy", detail, headers={"Retry-After": "10"})
+        raise Problem(429, "too-many-files", detail, headers={"Retry-After": "10"})
     assert set(FORMATS) == {"geojson", "csv", "osm"}
-    box = _box(bbox)
     file = jobs.folder / token_hex(8)
     try:
         await body_to_file(request, file, settings.max_body_bytes)
     except BaseException:
         file.unlink(missing_ok=True)
         raise
+    if not file.stat().st_size:
+        file.unlink()
+        raise Problem(422, "empty-file", "body: there is nothing in it; send the file as the body")
     wanted = Options(profile=profile, scheme=scheme, ontology=ontology, merge_radius=5.0)
-    job = jobs.start(file, name, wanted, format, crs, box)
+    job = jobs.start(file, name, wanted, format, crs, _box(bbox))
     response.headers["Location"] = f"/v1/jobs/{job.info.id}"
     return job.info
 
@@ -190,10 +195,4 @@ async def get_job(jobs: CurrentJobs, job_id: str, _: CanQuery) -> JobInfo:
 
 
 def _box(text: str | None) -> list[float] | None:
-    if text is None:
-        return None
-    try:
-        return [float(part) for part in text.split(",")]
-    except ValueError as error:
-        detail = "bbox: give four numbers with commas: min x, min y, max x, max y"
-        raise Problem(422, "invalid-parameter", detail) from error
+    return None if text is None else [float(part) for part in text.split(",")]

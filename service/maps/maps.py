@@ -22,7 +22,15 @@ from symboslam.engine.sightings import Sightings
 from symboslam.engine.table import Landmark
 from symboslam.engine.writers.atomic import atomic_file
 from symboslam.engine.writers.vocabulary import MAPS
-from symboslam.errors import InputError, OutputError, StoreError, UnknownNameError
+from symboslam.errors import (
+    InputError,
+    MissingExtraError,
+    OntologyError,
+    OutputError,
+    ReasonerError,
+    StoreError,
+    UnknownNameError,
+)
 from symboslam.reasoning.knowledge import Knowledge
 from symboslam.service.maps.records import MapRecord, Records
 from symboslam.service.maps.running import RunningMap, add_left_out, report_of
@@ -100,10 +108,11 @@ class Maps:
         """The name by which `knowledge` knows an ontology; a graph is copied as it is now.
 
         Raises:
-            InputError: there is no such graph.
+            InputError: there is no such graph, or it cannot be used as an ontology.
         """
-        if ontology in (None, BUNDLED):
+        if ontology is None or ontology == BUNDLED:
             return BUNDLED
+        check_iri(ontology, "ontology")
         try:
             answer = await self._store.read_graph(ontology, N_TRIPLES, gzip=False)
         except MissingGraphError as error:
@@ -116,15 +125,26 @@ class Maps:
                 data = await asyncio.to_thread(file.read)
         name = f"{hashlib.sha256(data).hexdigest()[:32]}.nt"
 
-        def keep() -> None:
+        path = self._ontologies / name
+
+        def keep() -> bool:
             self._ontologies.mkdir(parents=True, exist_ok=True)
-            with atomic_file(self._ontologies / name) as file:
+            new = not path.exists()
+            with atomic_file(path) as file:
                 file.write(data)
+            return new
 
         try:
-            await asyncio.to_thread(keep)
+            new = await asyncio.to_thread(keep)
         except (OSError, OutputError) as error:
             raise StoreError(f"the ontology cannot be kept: {error}") from error
+        try:
+            await self.knowledge(name)
+        except (OntologyError, ReasonerError, MissingExtraError) as error:
+            if new:
+                path.unlink()
+            problem = str(error).replace(str(path), f"<{ontology}>")
+            raise InputError(f"ontology <{ontology}>: {problem}") from error
         return name
 
     async def _is_stated(self, record: MapRecord) -> bool:
@@ -235,6 +255,20 @@ class Maps:
             Sightings(live.table, options["merge_radius"], names), self.records, self._store,
             self._metrics,
         )  # fmt: skip
+
+
+def check_iri(text: str, what: str) -> None:
+    """Check that a text is an absolute IRI.
+
+    Raises:
+        InputError: it is not.
+    """
+    import pyoxigraph
+
+    try:
+        pyoxigraph.NamedNode(text)
+    except ValueError as error:
+        raise InputError(f"{what}: {text[:80]!r} is not an absolute IRI: {error}") from error
 
 
 def base_of(identifier: str) -> str:

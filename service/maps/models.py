@@ -7,6 +7,8 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from symboslam.service.maps.openapi import TEXT
+
 _STRICT = ConfigDict(extra="forbid")
 Length = Literal["line", "paragraph", "full"]
 
@@ -27,6 +29,20 @@ class Segmentation(BaseModel):
     empty: Literal["inherit", "unknown"] | None = None
 
 
+class Settings(BaseModel):
+    """Settings of the evidence that differ from the profile's."""
+
+    model_config = _STRICT
+
+    evidence: Literal["field", "pairs"] | None = None
+    measure: Literal["path", "wu_palmer", "lin", "direct"] | None = None
+    importance: Literal["entropy", "none"] | None = None
+    a: float | None = Field(default=None, gt=0, lt=1)
+    bandwidth: float | None = Field(default=None, gt=0, le=1e9, description="In metres.")
+    dissimilarity: float | None = Field(default=None, ge=0, le=1)
+    absence: float | None = Field(default=None, ge=0, le=1e9)
+
+
 class Options(BaseModel):
     """How a map is classified."""
 
@@ -43,11 +59,7 @@ class Options(BaseModel):
         description="IRI of a graph in the store that holds an ontology; by default the bundled.",
     )  # fmt: skip
     segmentation: Segmentation = Segmentation()
-    settings: dict[str, float | int | str | None] = Field(
-        default={},
-        max_length=20,
-        description="Settings that differ from the profile's: `bandwidth`, ...",
-    )
+    settings: Settings = Settings()
     merge_radius: float = Field(
         default=5.0,
         ge=0,
@@ -60,7 +72,7 @@ class Options(BaseModel):
 class MapRequest(Options):
     """A map to make."""
 
-    name: str = Field(min_length=1, max_length=200)
+    name: str = Field(min_length=1, max_length=200, pattern=TEXT)
     bbox: list[float] = Field(
         min_length=4, max_length=6, description="Min x, min y, max x, max y (west, south, ...)."
     )
@@ -119,11 +131,12 @@ class OverrideRequest(BaseModel):
     environment: str | None = Field(
         max_length=200, description="Name of an environment type; null: it is unknown."
     )
-    reason: str = Field(default="", max_length=2000)
+    reason: str = Field(default="", max_length=2000, pattern=TEXT)
     operator: str | None = Field(
         default=None,
         min_length=1,
         max_length=200,
+        pattern=TEXT,
         description="Who says so; by default the token's name.",
     )
 

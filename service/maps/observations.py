@@ -57,9 +57,15 @@ def read(
     Raises:
         InputError: it does not parse, or an observation is wrong; names its place.
     """
-    document = _lines(body) if media_type == NDJSON else geojson.parse(body, "body")
+    try:
+        text = body.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        where = f"line {body[: error.start].count(10) + 1}"
+        raise LandmarkError("it is not UTF-8 text", source="body", where=where) from error
+    lines = media_type == NDJSON
+    document = _lines(text) if lines else geojson.parse(text, "body", _unique)
     columns = geojson.from_object(document, "body", knowledge)
-    if media_type == NDJSON:
+    if lines:
         columns = replace(columns, place=lambda row: f"line {row + 1}")
     names = [str(name or "") for name in columns.id or [""] * len(columns)]
     for row, name in enumerate(names):
@@ -81,20 +87,32 @@ def read(
     return Observations(landmarks, found.report, len(columns))
 
 
-def _lines(body: bytes) -> dict[str, Any]:
+def _unique(members: list[tuple[str, Any]]) -> dict[str, Any]:
+    """An object of JSON whose members have names of their own."""
+    found = dict(members)
+    if len(found) != len(members):
+        names = [name for name, _ in members]
+        twice = next(name for name in names if names.count(name) > 1)
+        raise LandmarkError(f"it has the member {twice[:40]!r} twice", source="body")
+    return found
+
+
+def _lines(body: str) -> dict[str, Any]:
     """NDJSON -> the GeoJSON collection that says the same."""
     features = []
-    for number, line in enumerate(body.splitlines(), 1):
+    for number, line in enumerate(body.split("\n"), 1):
         if line.strip():
             features.append(_feature(line, number))
     return {"type": "FeatureCollection", "features": features}
 
 
-def _feature(line: bytes, number: int) -> dict[str, Any]:
+def _feature(line: str, number: int) -> dict[str, Any]:
     try:
-        value = json.loads(line)
+        value = json.loads(line, object_pairs_hook=_unique)
+    except LandmarkError as error:
+        raise LandmarkError(error.problem, source="body", where=f"line {number}") from error
     except (ValueError, RecursionError) as error:
-        problem = getattr(error, "msg", "it is not JSON in UTF-8")
+        problem = getattr(error, "msg", "it is not JSON, or is nested too deeply")
         raise LandmarkError(problem, source="body", where=f"line {number}") from error
     if not isinstance(value, dict):
         problem = "it is no JSON object"

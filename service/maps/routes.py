@@ -19,10 +19,12 @@ from symboslam.engine.writers.content import Content
 from symboslam.errors import InputError, UnknownNameError
 from symboslam.service.auth import AdminOnly, CanIngest, CanQuery
 from symboslam.service.dependencies import CurrentSettings
+from symboslam.service.maps import openapi
 from symboslam.service.maps.maps import Maps, base_of, empty_map
 from symboslam.service.maps.models import BatchResult, MapInfo, MapRequest, Options
 from symboslam.service.maps.observations import Observations, check_agent, read
 from symboslam.service.maps.running import BatchConflictError, RunningMap
+from symboslam.service.openapi import made
 from symboslam.service.problems import Problem
 from symboslam.service.requests import media_type, read_body
 from symboslam.service.store._base import BusyError
@@ -54,7 +56,7 @@ async def find_map(maps: CurrentMaps, map_id: str) -> RunningMap:
 CurrentMap = Annotated[RunningMap, Depends(find_map)]
 
 
-@router.post("", status_code=201, summary="Make a map")
+@router.post("", status_code=201, summary="Make a map", responses=made("The map."))
 async def create_map(
     wanted: MapRequest, maps: CurrentMaps, response: Response, _: CanIngest
 ) -> MapInfo:
@@ -80,7 +82,7 @@ async def options_of(wanted: Options, maps: Maps) -> dict[str, Any]:
         "ontology": await maps.keep_ontology(wanted.ontology),
         "profile": wanted.profile,
         "scheme": wanted.scheme,
-        "settings": {**wanted.settings, **cut},
+        "settings": wanted.settings.model_dump(exclude_none=True) | cut,
         "merge_radius": wanted.merge_radius,
         "reasons": wanted.reasons,
     }
@@ -107,28 +109,23 @@ async def list_maps(
 
 
 @router.get("/{map_id}", summary="A map")
-async def get_map(running: CurrentMap, maps: CurrentMaps, _: CanQuery) -> MapInfo:
+async def get_map(_: CanQuery, running: CurrentMap, maps: CurrentMaps) -> MapInfo:
     """What is known of a map."""
     return await info(running, maps)
 
 
 @router.delete("/{map_id}", status_code=204, summary="Remove a map")
-async def delete_map(map_id: str, running: CurrentMap, maps: CurrentMaps, _: AdminOnly) -> None:
+async def delete_map(_: AdminOnly, map_id: str, running: CurrentMap, maps: CurrentMaps) -> None:
     """Remove a map, its landmarks and all that the store says of it."""
     await maps.remove(map_id)
 
 
-@router.post("/{map_id}/observations", summary="Send observations", openapi_extra={
-    "requestBody": {"required": True, "content": {
-        GEOJSON: {"schema": {"type": "object"}},
-        NDJSON: {"schema": {"type": "string"}},
-    }},
-})  # fmt: skip
+@router.post("/{map_id}/observations", summary="Send observations", **openapi.OBSERVATIONS)
 async def post_observations(
     request: Request,
+    _: CanIngest,
     running: CurrentMap,
     settings: CurrentSettings,
-    _: CanIngest,
     idempotency_key: Annotated[str | None, Header(min_length=1, max_length=200)] = None,
     agent: Annotated[str | None, Query(max_length=256)] = None,
     crs: Annotated[str | None, Query(max_length=200)] = None,
@@ -169,8 +166,8 @@ def _read(
 
 @router.get("/{map_id}/events", summary="Watch a map", response_class=EventSourceResponse)
 async def watch(
-    running: CurrentMap,
     _: CanQuery,
+    running: CurrentMap,
     last_event_id: Annotated[int | None, Header(ge=0)] = None,
 ) -> AsyncIterator[ServerSentEvent]:
     """Server-sent events: `change` with the segments that changed; `reset`: read the map anew.

@@ -18,6 +18,7 @@ from symboslam.engine.writers.geojson import to_geojson
 from symboslam.engine.writers.options import reasons_wanted
 from symboslam.errors import UnknownNameError
 from symboslam.service.auth import CanQuery, CanUpdate
+from symboslam.service.maps import openapi
 from symboslam.service.maps.explaining import text_of
 from symboslam.service.maps.maps import base_of
 from symboslam.service.maps.models import (
@@ -49,10 +50,10 @@ class GeoJSONResponse(Response):
     media_type = GEOJSON
 
 
-@router.get("/landmarks", summary="Landmarks", response_class=GeoJSONResponse)
+@router.get("/landmarks", summary="Landmarks", response_class=GeoJSONResponse, **openapi.COLLECTION)
 async def get_landmarks(
-    running: CurrentMap,
     _: CanQuery,
+    running: CurrentMap,
     feature: Annotated[str | None, Query(alias="class", max_length=200)] = None,
     limit: Annotated[int, Query(ge=1, le=1_000_000)] = 100_000,
     offset: Annotated[int, Query(ge=0, le=10**9)] = 0,
@@ -99,11 +100,11 @@ def _landmarks(live: LiveMap, feature: int | None, limit: int, offset: int) -> s
     return json.dumps({**head, "features": features}, ensure_ascii=False)
 
 
-@router.get("/segments", summary="Segments", response_class=GeoJSONResponse)
+@router.get("/segments", summary="Segments", response_class=GeoJSONResponse, **openapi.COLLECTION)
 async def get_segments(
+    _: CanQuery,
     running: CurrentMap,
     maps: CurrentMaps,
-    _: CanQuery,
     reasons: Annotated[int, Query(ge=0, le=100)] = 0,
 ) -> Response:
     """Segments as polygons with types and probabilities, and the overrides in force."""
@@ -123,14 +124,14 @@ async def get_segments(
 
 
 @router.get("/segments/{segment}/explanation", summary="Why?", responses={
-    200: {"content": {"text/plain": {}}},
+    200: {"content": {"text/plain": {"schema": {"type": "string"}}}},
 })  # fmt: skip
 async def explain(
     request: Request,
+    _: CanQuery,
     running: CurrentMap,
     maps: CurrentMaps,
     segment: str,
-    _: CanQuery,
     length: Length = "paragraph",
     against: Annotated[str | None, Query(max_length=200)] = None,
 ) -> ExplanationInfo:
@@ -169,7 +170,7 @@ async def explain(
 
 
 @router.get("/overrides", summary="Overrides")
-async def list_overrides(running: CurrentMap, maps: CurrentMaps, _: CanQuery) -> list[OverrideInfo]:
+async def list_overrides(_: CanQuery, running: CurrentMap, maps: CurrentMaps) -> list[OverrideInfo]:
     """All overrides, the oldest first; those taken back included."""
     found = await asyncio.to_thread(maps.records.overrides, running.record.id)
     return [_info(each, running) for each in found]
@@ -177,7 +178,7 @@ async def list_overrides(running: CurrentMap, maps: CurrentMaps, _: CanQuery) ->
 
 @router.put("/segments/{segment}/override", summary="Override a segment")
 async def put_override(
-    running: CurrentMap, maps: CurrentMaps, segment: str, wanted: OverrideRequest, who: CanUpdate
+    who: CanUpdate, running: CurrentMap, maps: CurrentMaps, segment: str, wanted: OverrideRequest
 ) -> OverrideInfo:
     """State that a segment is of another type; what was worked out stays beside it.
 
@@ -201,7 +202,7 @@ async def put_override(
 
 @router.delete("/segments/{segment}/override", status_code=204, summary="Take an override back")
 async def delete_override(
-    running: CurrentMap, maps: CurrentMaps, segment: str, _: CanUpdate
+    _: CanUpdate, running: CurrentMap, maps: CurrentMaps, segment: str
 ) -> None:
     """Take the override of a segment back; it stays on record."""
     mine = [each for each in await _overrides(running, maps) if each.segment == segment]
@@ -211,10 +212,10 @@ async def delete_override(
         await running.override(replace(each, undone=_now()))
 
 
-@router.get("/export", summary="The map as a file", response_class=Response)
+@router.get("/export", summary="The map as a file", response_class=Response, **openapi.EXPORT)
 async def export(
-    running: CurrentMap,
     _: CanQuery,
+    running: CurrentMap,
     format: Literal["geojson", "ttl", "nq", "png", "html"] = "geojson",
     reasons: Annotated[int | None, Query(ge=0, le=100)] = None,
 ) -> Response:

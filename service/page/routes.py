@@ -8,6 +8,7 @@ from hashlib import sha256
 from importlib.resources import files
 
 from fastapi import APIRouter, Request, Response
+from fastapi.responses import HTMLResponse
 
 from symboslam.service.problems import Problem
 from symboslam.service.responses import not_modified
@@ -33,7 +34,7 @@ _POLICY = (
 _HEADERS = {"Cache-Control": "no-cache", "X-Content-Type-Options": "nosniff"}
 
 
-@router.get("/query", summary="A page to ask queries on", response_class=Response)
+@router.get("/query", summary="A page to ask queries on", response_class=HTMLResponse)
 @router.head("/query", include_in_schema=False)
 async def query_page() -> Response:
     """The page; ``?query=`` and ``?example=`` say what it opens with."""

@@ -32,6 +32,7 @@ from symboslam.service.responses import (
     unless_disconnected,
 )
 from symboslam.service.settings import Settings
+from symboslam.service.sparql import openapi
 from symboslam.service.sparql.negotiation import choose, takes_gzip
 from symboslam.service.store._base import Document
 from symboslam.service.vocabulary import MULTIPART, TRIPLES, UPLOADS
@@ -42,7 +43,7 @@ _BELOW = PATH + "/{path:path}"
 _CONFLICT = {"graph", "default"}
 
 
-@router.get(PATH, summary="A graph", response_class=Response)
+@router.get(PATH, summary="A graph", response_class=Response, **openapi.GET_GRAPH)
 @router.get(_BELOW, include_in_schema=False)
 @router.head(PATH, include_in_schema=False)
 @router.head(_BELOW, include_in_schema=False)
@@ -60,12 +61,15 @@ async def get_graph(
     with problems_of_the_store():
         if await store.has_graph(graph) and (same := not_modified(request, tag)):
             return same
-        async with turn(request):
+        with turn(request):
             answer = await unless_disconnected(request, store.read_graph(graph, kind, gzip))
     return respond(request, answer, tag)
 
 
-@router.put(PATH, summary="Replace or create a graph", response_class=Response)
+@router.put(
+    PATH, summary="Replace or create a graph", status_code=204, response_class=Response,
+    **openapi.PUT_GRAPH,
+)  # fmt: skip
 @router.put(_BELOW, include_in_schema=False)
 async def put_graph(
     request: Request, settings: CurrentSettings, store: CurrentStore, _: CanUpdate
@@ -78,7 +82,10 @@ async def put_graph(
     return Response(status_code=201 if new else 204)
 
 
-@router.post(PATH, summary="Add to a graph, or create one", response_class=Response)
+@router.post(
+    PATH, summary="Add to a graph, or create one", status_code=204, response_class=Response,
+    **openapi.POST_GRAPH,
+)  # fmt: skip
 @router.post(_BELOW, include_in_schema=False)
 async def post_graph(
     request: Request, settings: CurrentSettings, store: CurrentStore, _: CanUpdate
@@ -96,7 +103,10 @@ async def post_graph(
     return Response(status_code=201 if new else 204, headers=headers)
 
 
-@router.delete(PATH, summary="Delete a graph", response_class=Response)
+@router.delete(
+    PATH, summary="Delete a graph", status_code=204, response_class=Response,
+    **openapi.DELETE_GRAPH,
+)  # fmt: skip
 @router.delete(_BELOW, include_in_schema=False)
 async def delete_graph(
     request: Request, settings: CurrentSettings, store: CurrentStore, _: CanUpdate

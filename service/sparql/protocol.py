@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+import asyncio
+from collections.abc import Awaitable, Callable
+from typing import Any, TypeVar
 
 from fastapi import APIRouter, Request, Response
 
@@ -27,17 +28,21 @@ from symboslam.service.responses import (
     unless_disconnected,
 )
 from symboslam.service.settings import Settings
-from symboslam.service.sparql import negotiation, tokens
+from symboslam.service.sparql import negotiation, openapi, tokens
 from symboslam.service.sparql.description import describe
 from symboslam.service.store._base import Query, QueryError, Store
 from symboslam.service.vocabulary import FORM, SPARQL_QUERY, SPARQL_UPDATE
 
 router = APIRouter(tags=["SPARQL"])
+T = TypeVar("T")
+_LONG = 5_000
 PATH = "/sparql"
 _POSTED = f"{SPARQL_QUERY}, {SPARQL_UPDATE} or {FORM}"
 
 
-@router.get(PATH, summary="Query, or describe the service", response_class=Response)
+@router.get(
+    PATH, summary="Query, or describe the service", response_class=Response, **openapi.QUERY
+)
 @router.get(PATH + "/", include_in_schema=False)
 @router.head(PATH, include_in_schema=False)
 @router.head(PATH + "/", include_in_schema=False)
@@ -51,13 +56,16 @@ async def query_by_get(
         raise Problem(400, "update-by-get", detail)
     text = parameters.find("query")
     if text is None:
+        for name in ("default-graph-uri", "named-graph-uri"):
+            parameters.iris(name)
         return await describe(request, settings, store)
     return await _query(request, settings, store, text, parameters)
 
 
 @router.post(
-    PATH, summary="Query or update", response_class=Response, dependencies=[declare("query")]
-)
+    PATH, summary="Query or update", response_class=Response, dependencies=[declare("query")],
+    **openapi.QUERY_OR_UPDATE,
+)  # fmt: skip
 @router.post(PATH + "/", include_in_schema=False)
 async def query_or_update_by_post(
     request: Request, settings: CurrentSettings, store: CurrentStore
@@ -106,7 +114,7 @@ async def _query(
     for name in ("using-graph-uri", "using-named-graph-uri"):
         if name in parameters:
             raise Problem(400, "wrong-parameter", f"{name} is for updates, not for queries")
-    if not settings.allow_service and tokens.asks_for(text, "SERVICE"):
+    if not settings.allow_service and await _look(tokens.asks_for, text, "SERVICE"):
         detail = (
             "SERVICE is switched off here: queries do not ask other endpoints"
             " (a prefix must not be called 'service' either)"
@@ -119,17 +127,17 @@ async def _query(
         formats=negotiation.formats(accept),
         default_graphs=parameters.iris("default-graph-uri"),
         named_graphs=parameters.iris("named-graph-uri"),
-        has_dataset=tokens.has_dataset(text),
+        has_dataset=await _look(tokens.has_dataset, text),
         gzip=negotiation.takes_gzip(request.headers.get("accept-encoding")),
     )
     tag = None
-    if request.method != "POST" and tokens.is_stable(text):
+    if request.method != "POST" and await _look(tokens.is_stable, text):
         tag = etag(store.version, query)
         if same := not_modified(request, tag):
             return same
-    async with turn(request):
-        with problems_of_the_store(), _prefixes_explained(text):
-            answer = await unless_disconnected(request, store.query(query))
+    with turn(request):
+        with problems_of_the_store():
+            answer = await unless_disconnected(request, _explained(text, store.query(query)))
     return respond(request, answer, tag)
 
 
@@ -139,32 +147,41 @@ async def _update(
     for name in ("default-graph-uri", "named-graph-uri"):
         if name in parameters:
             raise Problem(400, "wrong-parameter", f"{name} is for queries, not for updates")
-    if not settings.allow_service and tokens.asks_for(text, "SERVICE"):
+    if not settings.allow_service and await _look(tokens.asks_for, text, "SERVICE"):
         raise Problem(403, "service-refused", "SERVICE is switched off here")
-    if not settings.allow_load and tokens.asks_for(text, "LOAD"):
+    if not settings.allow_load and await _look(tokens.asks_for, text, "LOAD"):
         detail = "LOAD is switched off here; send the document to /graphs?graph=IRI instead"
         raise Problem(403, "load-refused", detail)
     try:
-        text = tokens.with_using(
-            text, parameters.iris("using-graph-uri"), parameters.iris("using-named-graph-uri")
+        text = await _look(
+            tokens.with_using,
+            text,
+            parameters.iris("using-graph-uri"),
+            parameters.iris("using-named-graph-uri"),
         )
     except tokens.DatasetConflictError as error:
         detail = f"the dataset is given twice: by the request and by {error} in the update"
         raise Problem(400, "dataset-conflict", detail) from error
     base = _base(request, settings)
-    async with turn(request):
-        with problems_of_the_store(), _prefixes_explained(text):
-            await store.update(text, base)
+    with turn(request):
+        with problems_of_the_store():
+            await _explained(text, store.update(text, base))
     return Response(status_code=204)
 
 
-@contextmanager
-def _prefixes_explained(text: str) -> Iterator[None]:
+async def _look(at: Callable[..., T], text: str, *more: Any) -> T:
+    """Look at the words of a text; beside everything else, should it be long."""
+    if len(text) < _LONG:
+        return at(text, *more)
+    return await asyncio.to_thread(at, text, *more)
+
+
+async def _explained(text: str, work: Awaitable[T]) -> T:
     """Say so where a query does not parse because it forgets a prefix."""
     try:
-        yield
+        return await work
     except QueryError as error:
-        if missing := tokens.undeclared_prefixes(text):
+        if missing := await _look(tokens.undeclared_prefixes, text):
             problem = f"the prefix {missing[0]} is not declared"
             raise QueryError(problem, error.line, error.column) from error
         raise

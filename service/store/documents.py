@@ -66,6 +66,8 @@ def parse(document: Document) -> list[Triple]:
     name = UPLOADS[document.media_type]
     if name == "RDF_XML":
         _refuse_traps(document.data)
+    if name == "JSON_LD" and text.lstrip()[:1] not in ("{", "["):
+        raise DocumentError("a JSON-LD document is an object or an array", 1, 1)
     try:
         quads = pyoxigraph.parse(
             text.encode(),

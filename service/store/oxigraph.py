@@ -79,6 +79,7 @@ class OxigraphStore(Store):
         self._pool = Pool(
             (settings.data / "spool").resolve(),
             size=settings.workers,
+            quick=settings.quick_workers,
             memory=settings.worker_memory,
             queue_length=settings.queue_length,
             queue_seconds=settings.queue_seconds,

@@ -9,6 +9,7 @@ from contextlib import asynccontextmanager, contextmanager
 from typing import TYPE_CHECKING, Any
 
 from symboslam.errors import StoreError
+from symboslam.service.limits import long_turn
 from symboslam.service.store._base import (
     Answer,
     BusyError,
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     import httpx
     from pyoxigraph import Triple
 
-    from symboslam.service.settings import Settings
+from symboslam.service.settings import Settings
 
 _JSON = next(iter(SOLUTIONS))
 _N_TRIPLES = "application/n-triples"
@@ -210,28 +211,29 @@ class RemoteStore(Store):
         self, method: str, url: str, *, accept: str, **given: Any
     ) -> AsyncIterator[httpx.Response]:
         """The response to a request that reads: so many at a time, each within the time limit."""
-        if self._free.locked() and self._waiting >= self._settings.queue_length:
-            raise BusyError(f"{self._waiting} queries are waiting already")
-        self._waiting += 1
-        try:
-            async with asyncio.timeout(self._settings.queue_seconds):
-                await self._free.acquire()
-        except TimeoutError as error:
-            problem = f"no other query ended in {self._settings.queue_seconds:g} s"
-            raise BusyError(problem) from error
-        finally:
-            self._waiting -= 1
-        seconds = self._settings.query_seconds
-        try:
-            async with asyncio.timeout(seconds):
-                async with self._open.request(
-                    method, url, headers={"Accept": accept}, **given
-                ) as response:
-                    yield response
-        except TimeoutError as error:
-            raise TimeLimitError(f"stopped after {seconds:g} s") from error
-        finally:
-            self._free.release()
+        async with long_turn():
+            if self._free.locked() and self._waiting >= self._settings.queue_length:
+                raise BusyError(f"{self._waiting} queries are waiting already")
+            self._waiting += 1
+            try:
+                async with asyncio.timeout(self._settings.queue_seconds):
+                    await self._free.acquire()
+            except TimeoutError as error:
+                problem = f"no other query ended in {self._settings.queue_seconds:g} s"
+                raise BusyError(problem) from error
+            finally:
+                self._waiting -= 1
+            seconds = self._settings.query_seconds
+            try:
+                async with asyncio.timeout(seconds):
+                    async with self._open.request(
+                        method, url, headers={"Accept": accept}, **given
+                    ) as response:
+                        yield response
+            except TimeoutError as error:
+                raise TimeLimitError(f"stopped after {seconds:g} s") from error
+            finally:
+                self._free.release()
 
     async def _keep(self, response: httpx.Response, media_type: str, gzip: bool) -> Answer:
         limit = self._settings.max_result_bytes

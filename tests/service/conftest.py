@@ -93,7 +93,7 @@ def make_service(tmp_path: Path) -> Iterator[MakeService]:
         def make(**given: Any) -> Service:
             chosen = {
                 "data": tmp_path / "data", "admin_token": TOKEN, "bundled_ontology": False,
-                "workers": 1, **given,
+                "workers": 1, "quick_workers": 0, **given,
             }  # fmt: skip
             return stack.enter_context(running(**chosen))
 
