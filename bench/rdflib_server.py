@@ -1,7 +1,7 @@
-"""rdflib-endpoint with its default store: rdflib_server.py FILE PORT, in an environment that has it.
+"""rdflib-endpoint with its default store: rdflib_server.py FILE PORT, in an environment of its own.
 
-Loads the file once. Each line on standard input then starts a server anew, in a forked process, and
-ends the one before: a query that takes too long cannot be stopped otherwise.
+Loads the file once. Each line on standard input starts a server anew, in a forked process, and ends
+the one before: a query that takes too long cannot be stopped otherwise.
 """
 
 import os

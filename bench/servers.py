@@ -62,6 +62,7 @@ class Server:
         **headers: str,
     ) -> tuple[int, bytes]:
         """Status and body of the response to a request; the connection is kept."""
+        kept = self._connection is not None
         try:
             if self._connection is None:
                 self._connection = http.client.HTTPConnection("127.0.0.1", self.port)
@@ -71,6 +72,11 @@ class Server:
             self._connection.request(method, path, body, headers)
             response = self._connection.getresponse()
             content = response.read()
+        except ConnectionError:
+            self.close()
+            if kept:  # the server has closed a connection that was idle
+                return self.send(method, path, body, seconds, **headers)
+            raise
         except BaseException:
             self.close()
             raise
