@@ -151,14 +151,14 @@ def _town(server: Server, size_m: float) -> Town:
 
     found = sample_area(7, size_m)
     status, body = server.send(
-        "POST", "/v1/jobs?name=town&format=geojson", json.dumps(found).encode(), 600, **ADMIN
+        "POST", "/v1/jobs?name=town&format=geojson", json.dumps(found).encode(), ADMIN, 600
     )
     if status != 202:
         raise RuntimeError(f"the job was refused: {status} {body[:300]!r}")
     job = json.loads(body)
     while job["state"] == "running":
         time.sleep(0.05)
-        job = json.loads(server.send("GET", f"/v1/jobs/{job['id']}", None, 60, **ADMIN)[1])
+        job = json.loads(server.send("GET", f"/v1/jobs/{job['id']}")[1])
     if job["state"] != "done":
         raise RuntimeError(f"the job failed: {job['problem']}")
     west, south, east, north = found["bbox"]
@@ -194,11 +194,9 @@ def _drive(
             seen = _moment()
             body = body.replace(b"MOMENT", seen.encode())
             start = time.perf_counter()
-            status, answer = own.send(
-                "POST", f"/v1/maps/{town.id}/observations?agent=robot-{robot}", body,
-                **ADMIN, **{"Content-Type": "application/x-ndjson",
-                            "Idempotency-Key": f"{robot}-{second}"},
-            )  # fmt: skip
+            key = {"Content-Type": "application/x-ndjson", "Idempotency-Key": f"{robot}-{second}"}
+            path = f"/v1/maps/{town.id}/observations?agent=robot-{robot}"
+            status, answer = own.send("POST", path, body, {**ADMIN, **key})
             posted = time.perf_counter() - start
             if status != 200:
                 with lock:

@@ -80,14 +80,15 @@ async def _make(folder: Path, towns: int, size_m: float) -> None:
 
     data = folder / "data"
     data.mkdir(parents=True)
-    store = OxigraphStore(Settings(data=data, workers=1))
+    settings: dict[str, Any] = {"data": data, "workers": 1}
+    store = OxigraphStore(Settings(**settings))
     await store.start()
     await seed(store)
     found = Maps(Records(open_database(data)), store, data / "ontologies")
     knowledge = await found.knowledge("bundled")
     for name, profile, number, size in _wanted(towns, size_m):
         area = read_landmarks(sample(number, size), knowledge)
-        options = {
+        options: dict[str, Any] = {
             "ontology": "bundled", "profile": profile, "scheme": None, "settings": {},
             "merge_radius": 5.0, "reasons": 8, "source": "sample", "attribution": "",
         }  # fmt: skip

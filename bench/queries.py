@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import shutil
 import statistics
 import sys
 import tempfile
@@ -69,9 +70,10 @@ def queries(towns: int, size_m: float, seconds: float, limit: float, peers: bool
         work = Path(stack.enter_context(tempfile.TemporaryDirectory()))
         servers = [stack.enter_context(symboslam(copied(folder / "data", work)))]
         missing = []
-        for start in (lambda: fuseki(work, file), lambda: rdflib_endpoint(file)) if peers else ():
+        starts = (fuseki(work, file), rdflib_endpoint(file)) if peers else ()
+        for start in starts:
             try:
-                servers.append(stack.enter_context(start()))  # type: ignore[arg-type]
+                servers.append(stack.enter_context(start))
             except UnavailableError as error:
                 missing.append(str(error))
         rows: list[list[object]] = []
@@ -113,9 +115,8 @@ def queries(towns: int, size_m: float, seconds: float, limit: float, peers: bool
         f"{towns + 2} maps. One client on the same machine, one connection, answers as JSON or "
         "N-Triples; milliseconds are the inverse of the throughput. The servers are asked in "
         f"turns: each query once to warm up, then {seconds:g} s long, 3 times or more; an answer "
-        f"after {limit:g} s counts as one in {limit:g} s. Lines of answers are compared. What the "
-        "project does not hold itself to is left out of the ratio: functions of GeoSPARQL at "
-        "servers that lack them.\n\n"
+        f"after {limit:g} s counts as one in {limit:g} s. Answers are compared line by "
+        "line. Where a server lacks GeoSPARQL's functions, the query does not count for it.\n\n"
         + table(head, [*rows, last])
         + "\n\n"
         + "\n".join(f"- {note}" for note in notes)
@@ -203,8 +204,6 @@ def _clients(server: Server, number: int, seconds: float) -> list[float]:
 
 def copied(data: Path, folder: Path) -> Path:
     """A copy of a data folder, so that the one that is kept stays as it is."""
-    import shutil
-
     return Path(shutil.copytree(data, folder / "data"))
 
 

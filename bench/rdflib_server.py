@@ -10,7 +10,7 @@ import sys
 
 import uvicorn
 from rdflib import Dataset
-from rdflib_endpoint import SparqlEndpoint
+from rdflib_endpoint import SparqlEndpoint  # type: ignore[import-not-found]
 
 file, port = sys.argv[1], int(sys.argv[2])
 graph = Dataset(store="default", default_union=True)  # as `rdflib-endpoint serve` does

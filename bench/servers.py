@@ -58,8 +58,8 @@ class Server:
         method: str,
         path: str,
         body: bytes | None = None,
+        headers: Mapping[str, str] | None = None,
         seconds: float = 60.0,
-        **headers: str,
     ) -> tuple[int, bytes]:
         """Status and body of the response to a request; the connection is kept."""
         kept = self._connection is not None
@@ -69,13 +69,13 @@ class Server:
                 self._connection.connect()
                 self._connection.sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
             self._connection.sock.settimeout(seconds)
-            self._connection.request(method, path, body, headers)
+            self._connection.request(method, path, body, headers or {})
             response = self._connection.getresponse()
             content = response.read()
         except ConnectionError:
             self.close()
             if kept:  # the server has closed a connection that was idle
-                return self.send(method, path, body, seconds, **headers)
+                return self.send(method, path, body, headers, seconds)
             raise
         except BaseException:
             self.close()
@@ -92,7 +92,7 @@ class Server:
             RuntimeError: the server refuses it.
         """
         path = f"{self.path}?query={quote(query)}"
-        status, content = self.send("GET", path, seconds=seconds, Accept=accept)
+        status, content = self.send("GET", path, None, {"Accept": accept}, seconds)
         if status != http.client.OK:
             raise RuntimeError(f"{self.name}: {status} {content[:300].decode('utf-8', 'replace')}")
         return content
@@ -145,7 +145,7 @@ def fuseki(folder: Path, file: Path) -> Iterator[Server]:
     ready = f"/ds/sparql?query={quote('ASK {}')}"
     with _started("Fuseki", port, "/ds/sparql", command, environment, ready) as server:
         kind = {"Content-Type": "application/n-quads"}
-        status, content = server.send("POST", "/ds/data", file.read_bytes(), 600, **kind)
+        status, content = server.send("POST", "/ds/data", file.read_bytes(), kind, 600)
         if status >= http.client.BAD_REQUEST:
             raise RuntimeError(f"Fuseki: {status} {content[:300]!r}")
         yield server
@@ -160,7 +160,7 @@ def rdflib_endpoint(file: Path) -> Iterator[Server]:
     """
     python = _rdflib_python()
     port = free_port()
-    command = [python, ROOT / "bench" / "rdflib_server.py", file, str(port)]
+    command: list[Any] = [python, ROOT / "bench" / "rdflib_server.py", file, str(port)]
     process = subprocess.Popen(
         command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL
     )
