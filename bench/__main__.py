@@ -9,8 +9,11 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from bench import cases
+from bench.ingest import ingest
 from bench.measure import machine
 from bench.pitfalls import pitfalls
+from bench.queries import queries
+from bench.ready import ready
 from bench.reasoning import reasoning
 
 CASES: dict[str, tuple[Callable[[], str], Callable[[], str]]] = {
@@ -34,6 +37,12 @@ CASES: dict[str, tuple[Callable[[], str], Callable[[], str]]] = {
         lambda: pitfalls((10_000, 30_000, 100_000, 300_000), 5),
         lambda: pitfalls((500, 1000), 1),
     ),
+    "queries": (
+        lambda: queries(8, 1000.0, 2.0, 60.0),
+        lambda: queries(0, 1000.0, 0.0, 20.0, peers=False),
+    ),
+    "ready": (lambda: ready((8, 18), 1000.0, 7), lambda: ready((0,), 1000.0, 1)),
+    "ingest": (lambda: ingest(6600.0, 60), lambda: ingest(1000.0, 1)),
 }
 
 

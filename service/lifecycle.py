@@ -29,7 +29,7 @@ class Lifecycle:
             task.cancel("the service stops")
 
 
-def _lifecycle(request: Request) -> Lifecycle:
+async def _lifecycle(request: Request) -> Lifecycle:
     return cast(Lifecycle, request.app.state.lifecycle)
 
 

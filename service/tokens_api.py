@@ -49,7 +49,7 @@ class NewToken(TokenInfo):
     token: str = Field(description="Shown this once only.")
 
 
-def _tokens(request: Request) -> Tokens:
+async def _tokens(request: Request) -> Tokens:
     return cast(Tokens, request.app.state.tokens)
 
 

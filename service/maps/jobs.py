@@ -135,7 +135,7 @@ class Jobs:
                 job.file.unlink(missing_ok=True)
 
 
-def _jobs(request: Request) -> Jobs:
+async def _jobs(request: Request) -> Jobs:
     return cast(Jobs, request.app.state.jobs)
 
 

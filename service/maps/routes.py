@@ -34,7 +34,7 @@ router = APIRouter(prefix="/v1/maps", tags=["Maps"])
 _KINDS = (NDJSON, GEOJSON, "application/json", "application/ndjson", "application/jsonl")
 
 
-def _maps(request: Request) -> Maps:
+async def _maps(request: Request) -> Maps:
     return cast(Maps, request.app.state.maps)
 
 

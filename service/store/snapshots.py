@@ -28,11 +28,14 @@ class Snapshots:
         self._folder, self._make, self._held = folder, make, held
         self._making = asyncio.Lock()
         self._made = 0
+        self._there: set[str] = set()
         self._current: tuple[int, str] | None = None
+        self._removing: set[asyncio.Future[None]] = set()
 
     def clear(self) -> None:
         """Remove all."""
         self._current = None
+        self._there.clear()
         shutil.rmtree(self._folder, ignore_errors=True)
 
     async def at(self, generation: int) -> str:
@@ -44,19 +47,29 @@ class Snapshots:
         async with self._making:  # whoever waits here finds the new one
             if self._current is None or self._current[0] < generation:
                 self._made += 1
-                path = self._folder / str(self._made)
+                path = str(self._folder / str(self._made))
+                self._there.add(path)
                 try:
-                    await asyncio.to_thread(self._replace, path, self._held())
+                    await asyncio.to_thread(self._new, path)
                 except OSError as error:
                     raise StoreError(f"the store cannot be read: {error}") from error
-                self._current = generation, str(path)
+                before = self._current[1] if self._current else path
+                self._current = generation, path
+                self._remove(self._there - self._held() - {before, path})
             return self._current[1]
 
-    def _replace(self, path: Path, held: set[str]) -> None:
-        """Make one and remove those that nobody holds."""
+    def _new(self, path: str) -> None:
         self._folder.mkdir(parents=True, exist_ok=True)
-        current = self._current and self._current[1]
-        for other in self._folder.iterdir():
-            if str(other) not in held and str(other) != current:
-                shutil.rmtree(other, ignore_errors=True)
-        self._make(str(path))
+        self._make(path)
+
+    def _remove(self, paths: set[str]) -> None:
+        """Remove those that nobody holds, while the query that asked for a new one goes on."""
+        self._there -= paths
+
+        def remove() -> None:
+            for path in paths:
+                shutil.rmtree(path, ignore_errors=True)
+
+        task = asyncio.ensure_future(asyncio.to_thread(remove))
+        self._removing.add(task)
+        task.add_done_callback(self._removing.discard)

@@ -20,8 +20,10 @@ class Folder:
         self.held: set[str] = set()
         self.snapshots = Snapshots(folder, lambda path: Path(path).mkdir(), lambda: self.held)
 
-    def names(self) -> set[str]:
-        return {path.name for path in self.folder.iterdir()}
+    async def become(self, names: set[str]) -> None:
+        """Wait until these are there and no others: removal is in the background."""
+        while {path.name for path in self.folder.iterdir()} != names:
+            await asyncio.sleep(0.005)
 
 
 def test_one_for_each_generation_that_is_asked_for(tmp_path: Path) -> None:
@@ -43,15 +45,15 @@ def test_what_is_read_stays(tmp_path: Path) -> None:
         folder.held = {await folder.snapshots.at(1)}
         for generation in range(2, 6):
             await folder.snapshots.at(generation)
-        assert folder.names() == {"1", "4", "5"}  # held; the one before; the newest
+        await folder.become({"1", "4", "5"})  # held; the one before; the newest
         folder.held = set()
         await folder.snapshots.at(6)
-        assert folder.names() == {"5", "6"}
+        await folder.become({"5", "6"})
         folder.snapshots.clear()
         assert not folder.folder.exists()
         assert Path(await folder.snapshots.at(6)).is_dir()
 
-    asyncio.run(ask())
+    asyncio.run(asyncio.wait_for(ask(), timeout=10))
 
 
 def test_one_that_cannot_be_made(tmp_path: Path) -> None:
