@@ -146,6 +146,12 @@ def config(service: Service, token: bool) -> str:
             "[[operations]]", f'include-name = "{name}"',
             "[operations.checks.positive_data_acceptance]", f"expected-statuses = {allowed}",
         ]  # fmt: skip
+    # No text at all is an update by SPARQL's grammar.
+    refused = json.dumps("204, 400, 401, 403, 404, 405, 406, 409, 415, 422, 429, 5xx".split(", "))
+    lines += [
+        "[[operations]]", 'include-name = "POST /sparql"',
+        "[operations.checks.negative_data_rejection]", f"expected-statuses = {refused}",
+    ]  # fmt: skip
     # A stream does not end; and a map would be gone for all others.
     lines += [
         "[[operations]]", 'include-name = "GET /v1/maps/{map_id}/events"',
