@@ -162,7 +162,7 @@ def kills(number: int) -> Iterator[tuple[int, float]]:
 
 
 @pytest.mark.parametrize(
-    "number", [8, pytest.param(50, marks=[pytest.mark.slow, pytest.mark.timeout(1200)])]
+    "number", [5, pytest.param(50, marks=[pytest.mark.slow, pytest.mark.timeout(1200)])]
 )
 def test_killed_under_load(tmp_path: Path, number: int) -> None:
     data, settings = tmp_path / "data", {"rate": "none", "workers": "2"}
