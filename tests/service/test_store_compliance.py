@@ -556,7 +556,7 @@ SLOW = "SELECT (COUNT(*) AS ?n) { GRAPH ?g { ?a ?b ?c . ?d ?e ?f . ?h ?i ?j FILT
 
 
 def test_a_slow_query_is_stopped(make: Callable[..., Case]) -> None:
-    case = make(query_seconds=0.5, workers=1)
+    case = make(query_seconds=0.5, workers=1, quick_workers=0)
     case.patch("", lines(3000, "x"))
     with pytest.raises(TimeLimitError):
         case.query(SLOW)
@@ -565,7 +565,7 @@ def test_a_slow_query_is_stopped(make: Callable[..., Case]) -> None:
 
 
 def test_a_slow_query_that_nobody_waits_for(make: Callable[..., Case]) -> None:
-    case = make(query_seconds=1000, workers=1, queue_length=0)
+    case = make(query_seconds=1000, workers=1, quick_workers=0, queue_length=0)
     case.patch("", lines(3000, "x"))
 
     async def leave() -> None:
@@ -588,7 +588,7 @@ def test_a_slow_query_that_nobody_waits_for(make: Callable[..., Case]) -> None:
 
 
 def test_nobody_waits_for_ever(make: Callable[..., Case]) -> None:
-    case = make(query_seconds=2, workers=1, queue_length=5, queue_seconds=0.1)
+    case = make(query_seconds=2, workers=1, quick_workers=0, queue_length=5, queue_seconds=0.1)
     case.patch("", lines(3000, "x"))
 
     async def wait() -> None:
