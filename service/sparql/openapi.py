@@ -40,10 +40,7 @@ _UNCHANGED = {"name": "If-None-Match", "in": "header", "required": False, "schem
 def _graph(required: bool) -> dict[str, Any]:
     """``?graph=IRI`` or ``?default``: one of the two, which takes an exploded object to say."""
     named = {"type": "string", "format": "iri", "description": "Its name."}
-    unnamed = {
-        "type": ["string", "array"], "maxLength": 0, "maxItems": 0,
-        "description": "The graph without a name; takes no value.",
-    }  # fmt: skip
+    unnamed = {"const": "", "description": "The graph without a name; takes no value."}
     return {
         "name": "target", "in": "query", "required": required, "style": "form", "explode": True,
         "description": "The graph: either `graph=IRI` or `default`.",
