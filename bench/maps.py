@@ -37,6 +37,8 @@ def maps(towns: int, size_m: float) -> Path:
     """
     folder = cache() / f"maps-{towns}-{size_m:g}-{_version()}"
     if not folder.is_dir():
+        for other in folder.parent.glob(f"maps-{towns}-{size_m:g}-*"):
+            shutil.rmtree(other)  # of another version
         part = folder.with_name(f".{folder.name}-{os.getpid()}")
         try:
             asyncio.run(_make(part, towns, size_m))
