@@ -39,7 +39,7 @@ CASES: dict[str, tuple[Callable[[], str], Callable[[], str]]] = {
     ),
     "queries": (
         lambda: queries(8, 1000.0, 2.0, 60.0),
-        lambda: queries(0, 1000.0, 0.0, 20.0, peers=False),
+        lambda: queries(0, 1000.0, 0.1, 20.0, peers=False),
     ),
     "ready": (lambda: ready((8, 18), 1000.0, 7), lambda: ready((0,), 1000.0, 1)),
     "ingest": (lambda: ingest(6600.0, 60), lambda: ingest(1000.0, 1)),

@@ -6,6 +6,7 @@ import json
 import math
 import os
 import statistics
+import sys
 import tempfile
 import threading
 import time
@@ -94,6 +95,8 @@ def ingest(size_m: float, seconds: int) -> str:
         ):
             town = _town(server, size_m)
             told, rates, memory, processor = _drive(server, town, choose(town), seconds)
+        for problem in told.failed:
+            print(problem, file=sys.stderr)
         cuts = statistics.quantiles(told.visible, n=20)
         rows.append(
             [name, f"{len(town.xy):,}", f"{rates:.0f}", _ms(statistics.median(told.visible)),

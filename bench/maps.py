@@ -16,7 +16,10 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[1]
 AGENTS = ("robot-1", "robot-2", "robot-3")
 START = datetime(2026, 3, 2, 10, tzinfo=UTC)
-_MADE_BY = ("engine", "service/maps", "ontology", "reasoning/bundled", "bench/maps.py")
+_MADE_BY = (
+    "engine", "ontology", "reasoning/bundled", "service/maps/maps.py",
+    "service/maps/statements.py", "bench/maps.py",
+)  # fmt: skip
 
 
 def cache() -> Path:
@@ -34,6 +37,8 @@ def maps(towns: int, size_m: float) -> Path:
     """
     folder = cache() / f"maps-{towns}-{size_m:g}-{_version()}"
     if not folder.is_dir():
+        for other in folder.parent.glob(f"maps-{towns}-{size_m:g}-*"):
+            shutil.rmtree(other)  # of another version
         part = folder.with_name(f".{folder.name}-{os.getpid()}")
         try:
             asyncio.run(_make(part, towns, size_m))

@@ -158,13 +158,13 @@ def lines_of(answer: bytes, accept: str) -> Counter[str]:
 
 
 def _value(term: dict[str, str]) -> str:
-    """A term; numbers by their value, blank nodes all alike."""
+    """A term; numbers and times by their value, blank nodes all alike."""
     if term["type"] == "bnode":
         return "_"
     try:
         return f"{float(term['value']):.{_PLACES}g}"
     except ValueError:
-        return term["value"]
+        return term["value"].replace("+00:00", "Z")
 
 
 def _overhead(servers: Sequence[Server], seconds: float) -> str:

@@ -45,6 +45,41 @@ def test_reasoning_case_runs(tmp_path: Path) -> None:
     assert "| `symboslam cq run` |" in done.stdout
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("case", "told"),
+    [
+        ("queries", "| `why` | "),
+        ("ready", "## `symboslam serve` until"),
+        ("ingest", "| all over the map | "),
+    ],
+)
+def test_service_cases_run(case: str, told: str) -> None:
+    pytest.importorskip("fastapi", reason="needs symboslam[service]")
+    done = run("-m", "bench", "--tiny", "--only", case)
+    assert done.returncode == 0, done.stderr
+    assert told in done.stdout
+    assert "differently" not in done.stdout
+
+
+def test_answers_are_compared_by_value() -> None:
+    """Order, and how numbers and times are written, do not count; a missing row does."""
+    code = (
+        "import json\n"
+        "from bench.queries import lines_of\n"
+        "from bench.servers import SELECT\n"
+        "def answer(*values):\n"
+        "    rows = [{'x': {'type': 'literal', 'value': v}} for v in values]\n"
+        "    return lines_of(json.dumps({'results': {'bindings': rows}}).encode(), SELECT)\n"
+        "day = '2026-03-02T12:00:00'\n"
+        "assert answer('1.50', day + 'Z') == answer(day + '+00:00', '1.5')\n"
+        "assert answer('1', '1') != answer('1')\n"
+        "assert answer('1') != answer('2')\n"
+    )
+    done = run("-c", code)
+    assert done.returncode == 0, done.stderr
+
+
 def test_reference_by_hand() -> None:
     """Three landmarks on a 3-4-5 triangle in a segment with a diagonal of 10.
 
