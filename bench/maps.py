@@ -79,6 +79,7 @@ async def _make(folder: Path, towns: int, size_m: float) -> None:
     from symboslam.service.database import open_database
     from symboslam.service.maps.maps import Maps
     from symboslam.service.maps.records import Override, Records
+    from symboslam.service.metrics import Metrics
     from symboslam.service.settings import Settings
     from symboslam.service.store.oxigraph import OxigraphStore
     from symboslam.service.store.seed import seed
@@ -89,7 +90,7 @@ async def _make(folder: Path, towns: int, size_m: float) -> None:
     store = OxigraphStore(Settings(**settings))
     await store.start()
     await seed(store)
-    found = Maps(Records(open_database(data)), store, data / "ontologies")
+    found = Maps(Records(open_database(data)), store, data / "ontologies", Metrics())
     knowledge = await found.knowledge("bundled")
     for name, profile, number, size in _wanted(towns, size_m):
         area = read_landmarks(sample(number, size), knowledge)

@@ -195,7 +195,7 @@ class Statements:
             replaced = s.own("classification", override.segment)
             stated.append((s.iri(SL + "replaces"), [replaced]))
         if override.reason:
-            stated.append((s.iri(RDFS + "comment"), [s.text(override.reason)]))
+            stated.append((s.iri(SL + "overrideReason"), [s.text(override.reason)]))
         if override.undone:
             when = s.typed(override.undone, XSD + "dateTime")
             stated.append((s.iri(PROV + "invalidatedAtTime"), [when]))

@@ -8,6 +8,8 @@ snapshot of the store, which nobody writes to.
 
 from __future__ import annotations
 
+import contextlib
+import ctypes
 import gzip
 import io
 import json
@@ -22,6 +24,7 @@ import pyoxigraph
 from symboslam.service.store.documents import place_and_problem
 from symboslam.service.vocabulary import PREFIXES, SOLUTIONS, TRIPLES
 
+_PR_SET_PDEATHSIG = 1
 INLINE = 256 * 1024
 """Larger results go through a file."""
 _SMALL_STACK = 2 * 1024 * 1024
@@ -248,6 +251,7 @@ def handle(reader: Reader, request: dict[str, Any]) -> tuple[dict[str, Any], byt
 def main() -> None:
     """Answer requests until there are no more."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the server, which ends us
+    _die_with_parent()
     _limit_memory(int(sys.argv[1]))
     reader = Reader()
     source, target = sys.stdin.buffer, sys.stdout.buffer
@@ -269,6 +273,12 @@ def _limit_memory(size: int) -> None:
         return
     if size:
         resource.setrlimit(resource.RLIMIT_DATA, (size, size))
+
+
+def _die_with_parent() -> None:
+    """Let the system end us when the server is gone, whatever we are in (Linux; prctl(2))."""
+    with contextlib.suppress(OSError, AttributeError):
+        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
 if __name__ == "__main__":
