@@ -8,16 +8,13 @@ import re
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pytest
 
 from symboslam.service.page import routes
 from symboslam.service.vocabulary import QUERY_PREFIXES
 from tests.engine.writers.page.browser.conftest import CHROMIUM, Browser
-
-if TYPE_CHECKING:
-    from tests.service.conftest import Service
+from tests.service.conftest import ADMIN, TOKEN, Service
 
 PAGE = Path(routes.__file__).parent
 BUILT = PAGE / "built"
@@ -195,7 +192,7 @@ def test_the_token_is_sent_and_kept_for_the_session_only(
 ) -> None:
     browser.open(f"{service.url}/query", f"?query={NAMES}")
     browser.run(
-        "(() => { const t = document.getElementById('token'); t.value = 'abc';"
+        "(() => { const t = document.getElementById('token'); t.value = '" + TOKEN + "';"
         " t.dispatchEvent(new Event('change')); })()"
     )
     browser.run("document.querySelector('.yasqe_queryButton').click()")
@@ -206,10 +203,10 @@ def test_the_token_is_sent_and_kept_for_the_session_only(
         if e.get("method") == "Network.requestWillBeSent"
         and e["params"]["request"]["url"].endswith("/sparql")
     ]
-    assert sent[-1] == "Bearer abc"
-    assert browser.run("sessionStorage.getItem('symboslam-token')") == "abc"
+    assert sent[-1] == ADMIN["Authorization"]
+    assert browser.run("sessionStorage.getItem('symboslam-token')") == TOKEN
     assert browser.run("localStorage.length") == 0
-    assert "abc" not in browser.run("location.href")
+    assert TOKEN not in browser.run("location.href")
     browser.run("sessionStorage.clear()")
 
 
