@@ -12,7 +12,6 @@ import time
 from typing import Any
 from uuid import uuid4
 
-import anyio
 from starlette.datastructures import Headers, MutableHeaders, State
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
@@ -132,9 +131,7 @@ class Guard:
                 await _stopped().response()(scope, receive, send)
         except StoreError as error:  # of the tokens; what handlers raise is a response by now
             await store_unavailable(error).response()(scope, receive, send)
-        except Exception as error:
-            if streaming and _is_hang_up(error):
-                return
+        except Exception:
             if started:
                 raise  # uvicorn cuts the response off, and logs this
             _log.exception("a defect")
@@ -153,13 +150,6 @@ class Guard:
         with self._limits.running(client):
             bounded = _bounded(receive, limit, self._settings.body_seconds)
             await self._app(scope, bounded, send)
-
-
-def _is_hang_up(error: Exception) -> bool:
-    """Whether an event stream ended because nobody reads it any more."""
-    if isinstance(error, ExceptionGroup):
-        return all(map(_is_hang_up, error.exceptions))
-    return isinstance(error, anyio.BrokenResourceError | anyio.ClosedResourceError)
 
 
 def _bounded(receive: Receive, limit: int, seconds: float) -> Receive:
