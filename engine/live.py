@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from symboslam.engine._base import Evidence
 from symboslam.engine.classify import (
@@ -38,8 +37,6 @@ from symboslam.engine.table import Landmark, LandmarkTable
 from symboslam.errors import UnknownNameError
 from symboslam.reasoning.knowledge import Knowledge
 
-Floats = NDArray[np.float64]
-Rows = NDArray[np.int64]
 DRIFT = 0.1
 """How far, as a share, the estimate of absence may move before the whole map takes it over."""
 
@@ -182,17 +179,20 @@ class LiveMap:
     def catch_up(self) -> Change | None:
         """Classify anew what was touched since the last call; None if nothing was."""
         landmarks, moved = {}, []
+        gone: list[int] = []
+        come: list[tuple[int, Landmark]] = []
         for identifier, (row, before) in self.table.pop_changes().items():
             after = self.table.find(identifier)
-            if before == after:
+            here = row if after is None else self.table.number(identifier)
+            if before == after and here == row:
                 continue
             landmarks[identifier] = before, after
-            if before is None or after is None or _differ(before, after):
+            if before is None or after is None or here != row or _differ(before, after):
                 moved += [each for each in (before, after) if each is not None]
-                if self._pairs and before is not None:
-                    self._pairs.leave(row)
-                if self._pairs and after is not None:
-                    self._pairs.come(self.table.number(identifier), after)
+                gone += [row] if before is not None else []
+                come += [(here, after)] if after is not None else []
+        if self._pairs:
+            self._pairs.follow(gone, come)
         if not landmarks:
             return None
         change = Change(landmarks)

@@ -6,6 +6,8 @@ distances between all of them (design 5).
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -36,15 +38,20 @@ class LivePairs:
         """(depths, m, K) for some rows."""
         return self._near[:, rows]
 
-    def leave(self, row: int) -> None:
-        """Take over that the landmark in a row is gone, or is about to change."""
+    def follow(self, gone: Iterable[int], come: Iterable[tuple[int, Landmark]]) -> None:
+        """Take over that landmarks left rows, and then that others, or the same, are in rows."""
+        for row in gone:
+            self._leave(row)
+        for row, landmark in come:
+            self._come(row, landmark)
+
+    def _leave(self, row: int) -> None:
         for depth, cell in enumerate(self._cells_of(row)):
             others = self._cells[depth][cell]
             others.discard(row)
             self._count(depth, row, others, -1.0)
 
-    def come(self, row: int, landmark: Landmark) -> None:
-        """Take over that a landmark is in a row now."""
+    def _come(self, row: int, landmark: Landmark) -> None:
         self._grow(row)
         self._xy[row] = landmark.x, landmark.y
         self._members[row] = self._member[landmark.feature]
