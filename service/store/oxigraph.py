@@ -253,6 +253,7 @@ class OxigraphStore(Store):
     async def graph_names(self, limit: int) -> list[str]:
         """IRIs of named graphs."""
 
+        @_told()
         def names() -> list[str]:
             found = itertools.islice(self._open.named_graphs(), limit)
             return sorted(getattr(name, "value", "") for name in found)
