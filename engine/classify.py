@@ -15,7 +15,7 @@ from symboslam.engine.evidence import PairEvidence
 from symboslam.engine.field import FieldEvidence
 from symboslam.engine.grid import Grid
 from symboslam.engine.landmarks import LandmarkMap
-from symboslam.engine.segmentation import Segments, cut, inside, seen_cells, sums
+from symboslam.engine.segmentation import Segments, cut, seen_cells, sums
 from symboslam.engine.settings import Settings, settings_of
 from symboslam.errors import UnknownNameError
 from symboslam.reasoning.knowledge import Knowledge
@@ -55,7 +55,6 @@ def classify(
             f"no segmentation {segmentation!r}; there are: {', '.join(SEGMENTATIONS)}"
         )
     settings = settings_of(profile, **changes)
-    knowledge.scheme(scheme)
     tell = progress or (lambda stage, share: None)
     grid = Grid(landmarks.bbox, settings.cells)
     tell("weighing evidence", 0.1)
@@ -69,7 +68,7 @@ def classify(
     config = configuration(settings, scheme or next(iter(knowledge.schemes)))
     if isinstance(evidence, FieldEvidence):  # what was left to the map
         config |= {"absence": evidence.absence, "bandwidth": evidence.bandwidth}
-    counts = sums(grid, inside(grid, landmarks.x, landmarks.y), segments.cells)
+    counts = sums(grid, grid.count(landmarks.x, landmarks.y), segments.cells)
     return assemble(grid, segments, counts, landmarks, knowledge, config, evidence)
 
 

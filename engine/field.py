@@ -165,9 +165,10 @@ class FieldEvidence(Evidence):
         self.field = self._spread(self._plain - self._loss)
         self.absence = crowding_share(self.field) if settings.absence is None else settings.absence
         self._ground = self.absence * absence
-        inside = np.zeros((grid.cells, grid.cells), np.int64)
-        np.add.at(inside, grid.finest_of(landmarks.x, landmarks.y), 1)
-        self.density = Density(grid, settings.threshold, self.field + self._ground, inside)
+        self.density = Density(
+            grid, settings.threshold, self.field + self._ground,
+            grid.count(landmarks.x, landmarks.y),
+        )  # fmt: skip
 
     def _kernels_of(self, landmark: Ints, sigma: float) -> Kernels:
         columns, rows = (

@@ -75,6 +75,12 @@ class Grid:
         last = self.cells - 1
         return np.clip(row, 0, last), np.clip(column, 0, last)
 
+    def count(self, x: Floats, y: Floats) -> Ints:
+        """(cells, cells) points in each finest cell."""
+        found = np.zeros((self.cells, self.cells), np.int64)
+        np.add.at(found, self.finest_of(x, y), 1)
+        return found
+
     def rectangles(self, cells: Cells) -> tuple[Floats, Floats, Floats, Floats]:
         """(min x, min y, max x, max y) of each cell in metres."""
         west, south, _, _ = self.box

@@ -132,13 +132,6 @@ def sums(grid: Grid, finest: Ints, cells: Cells) -> Ints:
     return found
 
 
-def inside(grid: Grid, x: Floats, y: Floats) -> Ints:
-    """(cells, cells) points in each finest cell."""
-    found = np.zeros((grid.cells, grid.cells), np.int64)
-    np.add.at(found, grid.finest_of(x, y), 1)
-    return found
-
-
 def seen_cells(grid: Grid, surveyed: BaseGeometry | None) -> Ints:
     """(cells, cells) 1 where the middle of the finest cell was looked at (design 5)."""
     if surveyed is None:

@@ -13,14 +13,16 @@ router = APIRouter(tags=["Health"])
 
 _PAGE = """<!doctype html>
 <html lang="en"><meta charset="utf-8"><title>SymboSLAM</title>
-<h1>SymboSLAM</h1>
-<ul>
+<meta name="viewport" content="width=device-width"><link rel="stylesheet" href="query/query.css">
+<header><h1>SymboSLAM</h1><p>What kind of place each part of a map is, and why</p></header>
+<main><ul>
 <li><a href="query">query</a>: a page to ask queries on, with examples
 <li><a href="sparql">sparql</a>: SPARQL 1.1 queries and updates; without a query, what it can do
 <li>graphs?graph=IRI: whole graphs, for example
 <a href="graphs?graph=https%3A%2F%2Fw3id.org%2Fsymboslam%2Fgraph%2Fontology">the ontology</a>
+<li><a href="v1/maps">v1/maps</a>: maps, their landmarks, segments, reasons and overrides
 <li><a href="openapi.json">openapi.json</a>: all of it, for programs
-</ul>
+</ul></main>
 </html>
 """
 

@@ -34,44 +34,44 @@ class Metrics:
     """The figures of one service.
 
     Attributes:
-        registry: where further counters are registered:
-            ``Counter(name, text, registry=metrics.registry)``.
+        collectors: where further counters are registered:
+            ``Counter(name, text, registry=metrics.collectors)``.
         running: requests that are being answered.
     """
 
     def __init__(self) -> None:
-        self.registry = CollectorRegistry()
+        self.collectors = CollectorRegistry()
         labels = ("route", "method", "status")
         self._requests = Counter(
-            "symboslam_http_requests", "Requests answered.", labels, registry=self.registry
+            "symboslam_http_requests", "Requests answered.", labels, registry=self.collectors
         )
         self._seconds = Histogram(
             "symboslam_http_request_seconds", "Time from a request to the end of its response.",
-            ("route", "method"), buckets=_SECONDS, registry=self.registry,
+            ("route", "method"), buckets=_SECONDS, registry=self.collectors,
         )  # fmt: skip
         self._batches = Counter(
-            "symboslam_batches", "Batches of observations taken.", registry=self.registry
+            "symboslam_batches", "Batches of observations taken.", registry=self.collectors
         )
         self._observations = Counter(
-            "symboslam_observations", "Observations in them.", registry=self.registry
+            "symboslam_observations", "Observations in them.", registry=self.collectors
         )
         self._ingest = Histogram(
             "symboslam_ingest_seconds",
             "From batches that are taken together to the store that says what they changed.",
-            buckets=_SECONDS, registry=self.registry,
+            buckets=_SECONDS, registry=self.collectors,
         )  # fmt: skip
         self.running = Gauge(
-            "symboslam_http_requests_running", "Requests at this moment.", registry=self.registry
+            "symboslam_http_requests_running", "Requests at this moment.", registry=self.collectors
         )
-        build = Gauge("symboslam_build", "This version.", ("version",), registry=self.registry)
+        build = Gauge("symboslam_build", "This version.", ("version",), registry=self.collectors)
         build.labels(__version__).set(1)
-        ProcessCollector(registry=self.registry)
-        PlatformCollector(registry=self.registry)
-        GCCollector(registry=self.registry)
+        ProcessCollector(registry=self.collectors)
+        PlatformCollector(registry=self.collectors)
+        GCCollector(registry=self.collectors)
 
     def watch(self, store: Store) -> None:
         """Show what a store does."""
-        self.registry.register(_StoreCollector(store))
+        self.collectors.register(_StoreCollector(store))
 
     def taken(self, batches: int, observations: int, seconds: float) -> None:
         """Count batches of observations that were merged and classified together."""
@@ -129,4 +129,4 @@ async def metrics(request: Request) -> Response:
         authorize(request, "admin")
     encode, media_type = choose_encoder(request.headers.get("accept", ""))
     found: Any = request.app.state.metrics
-    return Response(encode(found.registry), headers={"Content-Type": media_type})
+    return Response(encode(found.collectors), headers={"Content-Type": media_type})

@@ -239,7 +239,6 @@ class Pool:
                 held.callback(work.cancel)
                 if not long:
                     await asyncio.wait({work}, timeout=QUICK_SECONDS)
-                if not long:
                     self._note(quick=work.done())
                 if not work.done() and self._quick:
                     if not long:

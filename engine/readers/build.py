@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -82,20 +82,13 @@ def build(
     if columns.surveyed is not None:
         notes.extend(_not_surveyed(columns, surveyed, keep))
     x, y = area.frame.to_metres(*_outside(columns, system, keep))
-    feature = features[keep]
-    confidence = np.ones(len(columns)) if columns.confidence is None else columns.confidence
     return LandmarkMap(
-        feature=feature,
         x=x,
         y=y,
-        confidence=confidence[keep],
-        static=np.array([known.static for known in knowledge.features], np.bool_)[feature],
         id=ids[keep],
         frame=area.frame,
         bbox=_cover(area, x, y),
         surveyed=area.surveyed,
-        time=None if times is None else times[keep],
-        agent=None if agents is None else agents[keep],
         report=ReadReport(
             source=columns.source,
             read=int(keep.sum()),
@@ -105,7 +98,28 @@ def build(
             notes=tuple(notes),
             attribution=_one_line(columns.attribution),
         ),
+        **_kept(columns, knowledge, features, keep, times, agents),
     )
+
+
+def _kept(
+    columns: Columns,
+    knowledge: FeatureIndex,
+    features: NDArray[np.int32],
+    keep: NDArray[np.bool_],
+    times: NDArray[Any] | None,
+    agents: NDArray[Any] | None,
+) -> dict[str, Any]:
+    """The columns of a landmark map that do not depend on where it lies."""
+    feature = features[keep]
+    confidence = np.ones(len(columns)) if columns.confidence is None else columns.confidence
+    return {
+        "feature": feature,
+        "confidence": confidence[keep],
+        "static": np.array([known.static for known in knowledge.features], np.bool_)[feature],
+        "time": None if times is None else times[keep],
+        "agent": None if agents is None else agents[keep],
+    }
 
 
 def place(
@@ -142,20 +156,13 @@ def place(
     inside = (x >= west) & (x <= east) & (y >= south) & (y <= north)
     features, unknown = _features(columns, inside, knowledge)
     keep = inside & (features >= 0)
-    feature = features[keep]
-    confidence = np.ones(len(columns)) if columns.confidence is None else columns.confidence
     return LandmarkMap(
-        feature=feature,
         x=x[keep],
         y=y[keep],
-        confidence=confidence[keep],
-        static=np.array([known.static for known in knowledge.features], np.bool_)[feature],
         id=np.flatnonzero(keep).astype(np.str_),
         frame=like.frame,
         bbox=like.bbox,
         surveyed=like.surveyed,
-        time=None if times is None else times[keep],
-        agent=None if agents is None else agents[keep],
         report=ReadReport(
             source=columns.source,
             read=int(keep.sum()),
@@ -163,6 +170,7 @@ def place(
             outside=int((~inside).sum()),
             notes=tuple(notes),
         ),
+        **_kept(columns, knowledge, features, keep, times, agents),
     )
 
 

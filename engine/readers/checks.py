@@ -16,7 +16,7 @@ from symboslam.errors import LandmarkError
 UNWRITABLE = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff\ufffe\uffff]")
 """Characters that are no text and that XML, RDF or UTF-8 cannot hold."""
 
-_LONGEST_ID = 256
+LONGEST_ID = 256
 _FARTHEST = 1e9
 """Metres; no local map reaches farther."""
 
@@ -158,6 +158,18 @@ def _content(columns: Columns, row: int) -> tuple[object, ...]:
     return int(columns.kind[row]), x, y, confidence, time, agent
 
 
+def check_ids(columns: Columns) -> None:
+    """Identifiers must be short and writable.
+
+    Raises:
+        LandmarkError: the first that is not.
+    """
+    for row, name in enumerate(columns.id or ()):
+        if name and (len(name) > LONGEST_ID or UNWRITABLE.search(name)):
+            problem = f"the id {name[:80]!r} is longer than {LONGEST_ID} or is no text"
+            raise fail(columns, row, problem)
+
+
 def make_ids(columns: Columns) -> NDArray[np.str_]:
     """(n,) identifiers: those given; for the others the row, marked if that is an id already.
 
@@ -167,13 +179,8 @@ def make_ids(columns: Columns) -> NDArray[np.str_]:
     size = len(columns)
     if columns.id is None:
         return np.arange(size).astype(f"U{len(str(size))}")
-    missing = []
-    for row, name in enumerate(columns.id):
-        if not name:
-            missing.append(row)
-        elif len(name) > _LONGEST_ID or UNWRITABLE.search(name):
-            problem = f"the id {name[:80]!r} is longer than {_LONGEST_ID} or is no text"
-            raise fail(columns, row, problem)
+    check_ids(columns)
+    missing = [row for row, name in enumerate(columns.id) if not name]
     if not missing:
         return np.array(columns.id, np.str_)
     given, mark = set(columns.id), ""

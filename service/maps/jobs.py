@@ -13,7 +13,7 @@ from typing import Annotated, Literal, cast
 from fastapi import APIRouter, Depends, Query, Request, Response
 
 from symboslam.engine.landmarks import LandmarkMap
-from symboslam.engine.readers import FORMATS, read_landmarks
+from symboslam.engine.readers import read_landmarks
 from symboslam.errors import SymboSlamError
 from symboslam.reasoning.knowledge import Knowledge
 from symboslam.service.auth import CanIngest, CanQuery
@@ -169,7 +169,6 @@ async def start_job(
     if jobs.waiting >= _MOST_WAITING:
         detail = f"{jobs.waiting} files are waiting already"
         raise Problem(429, "too-many-files", detail, headers={"Retry-After": "10"})
-    assert set(FORMATS) == {"geojson", "csv", "osm"}
     file = jobs.folder / token_hex(8)
     try:
         await body_to_file(request, file, settings.max_body_bytes)
@@ -179,7 +178,7 @@ async def start_job(
     if not file.stat().st_size:
         file.unlink()
         raise Problem(422, "empty-file", "body: there is nothing in it; send the file as the body")
-    wanted = Options(profile=profile, scheme=scheme, ontology=ontology, merge_radius=5.0)
+    wanted = Options(profile=profile, scheme=scheme, ontology=ontology)
     job = jobs.start(file, name, wanted, format, crs, _box(bbox))
     response.headers["Location"] = f"/v1/jobs/{job.info.id}"
     return job.info

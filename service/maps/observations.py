@@ -10,14 +10,13 @@ from typing import Any
 from symboslam.engine.landmarks import LandmarkMap, ReadReport
 from symboslam.engine.readers import geojson
 from symboslam.engine.readers.build import place
-from symboslam.engine.readers.checks import UNWRITABLE
+from symboslam.engine.readers.checks import LONGEST_ID, UNWRITABLE, check_ids
 from symboslam.engine.table import Landmark
 from symboslam.errors import InputError, LandmarkError
 from symboslam.reasoning.knowledge import Knowledge
 from symboslam.service.vocabulary import NDJSON
 
 _MEMBERS = ("class", "tags", "confidence", "time", "agent")
-_LONGEST_ID = 256
 
 
 @dataclass(frozen=True)
@@ -68,10 +67,7 @@ def read(
     if lines:
         columns = replace(columns, place=lambda row: f"line {row + 1}")
     names = [str(name or "") for name in columns.id or [""] * len(columns)]
-    for row, name in enumerate(names):
-        if len(name) > _LONGEST_ID or UNWRITABLE.search(name):
-            problem = f"the id {name[:80]!r} is longer than {_LONGEST_ID} or is no text"
-            raise LandmarkError(problem, source="body", where=columns.place(row))
+    check_ids(columns)
     found = place(columns, knowledge, area, crs)
     now = datetime.now(UTC).isoformat(timespec="milliseconds")
     rows = [int(number) for number in found.id]
@@ -138,6 +134,6 @@ def check_agent(name: str | None) -> str | None:
     Raises:
         InputError: it is too long or is no text.
     """
-    if name and (len(name) > _LONGEST_ID or UNWRITABLE.search(name)):
-        raise InputError(f"the agent {name[:80]!r} is longer than {_LONGEST_ID} or is no text")
+    if name and (len(name) > LONGEST_ID or UNWRITABLE.search(name)):
+        raise InputError(f"the agent {name[:80]!r} is longer than {LONGEST_ID} or is no text")
     return name or None

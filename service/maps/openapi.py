@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from symboslam.service.openapi import also
-from symboslam.service.vocabulary import GEOJSON, NDJSON
+from symboslam.service.vocabulary import GEOJSON, NDJSON, TURTLE
 
 TEXT = r"^[^\u0000-\u001f\u007f\ufffe\uffff]*$"
 """Pattern of a text in one line without control characters."""
@@ -141,7 +141,7 @@ EXPORT: dict[str, Any] = {
             "headers": {"Content-Disposition": {"schema": {"type": "string"}}},
             "content": {
                 GEOJSON: {"schema": _POLYGONS},
-                "text/turtle": {"schema": {"type": "string"}},
+                TURTLE: {"schema": {"type": "string"}},
                 "application/n-quads": {"schema": {"type": "string"}},
                 "text/html": {"schema": {"type": "string"}},
                 "image/png": {"schema": {"type": "string", "format": "binary"}},

@@ -24,16 +24,15 @@ from symboslam.service.store._base import (
 from symboslam.service.store.documents import parse_all
 from symboslam.service.store.endpoint import Endpoint, canonical, chosen, keep
 from symboslam.service.store.patches import patch_update
-from symboslam.service.vocabulary import SOLUTIONS, SPARQL_UPDATE, TRIPLES
+from symboslam.service.vocabulary import N_TRIPLES, SOLUTIONS, SPARQL_UPDATE, TRIPLES
 
 if TYPE_CHECKING:
     import httpx
     from pyoxigraph import Triple
 
-from symboslam.service.settings import Settings
+    from symboslam.service.settings import Settings
 
 _JSON = next(iter(SOLUTIONS))
-_N_TRIPLES = "application/n-triples"
 _DATASETS = ("N_QUADS", "TRIG")
 _MOST_GRAPHS = 5000
 
@@ -150,7 +149,7 @@ class RemoteStore(Store):
 
     async def fill_graph(self, graph: str, text: str) -> None:
         """Make a graph hold our own statements."""
-        await self.replace_graph(graph, [Document("application/n-triples", text.encode(), graph)])
+        await self.replace_graph(graph, [Document(N_TRIPLES, text.encode(), graph)])
 
     async def drop_graph(self, graph: str | None) -> None:
         """Remove a graph."""
@@ -258,7 +257,7 @@ class RemoteStore(Store):
         data = pyoxigraph.serialize(triples, format=pyoxigraph.RdfFormat.N_TRIPLES) or b""
         new = not await self.has_graph(graph)
         if self._graphs_url is not None:
-            kind = {"Content-Type": _N_TRIPLES}
+            kind = {"Content-Type": N_TRIPLES}
             await self._write(method, self._graphs_url, kind, data, params=_named(graph))
             return new
         inside = data.decode()

@@ -10,10 +10,12 @@ from symboslam.reasoning.vocabulary import OWL_NAMESPACE
 from symboslam.service.store._base import Document, Formats, Query, Store
 from symboslam.service.vocabulary import (
     INFERENCES_GRAPH,
+    N_TRIPLES,
     ONTOLOGY_GRAPH,
     PREFIXES,
     RDFS,
     SOLUTIONS,
+    TURTLE,
 )
 
 if TYPE_CHECKING:
@@ -75,7 +77,7 @@ def _documents(mark: str) -> tuple[list[Document], Document]:
     from symboslam.reasoning.vocabulary import DOCUMENTS
 
     asserted = [
-        Document("text/turtle", file.read_bytes(), DOCUMENTS + name.removesuffix(".ttl"))
+        Document(TURTLE, file.read_bytes(), DOCUMENTS + name.removesuffix(".ttl"))
         for name, file in closure_files().items()
     ]
     # In memory, because it is nobody's business until it is complete.
@@ -92,7 +94,7 @@ def _documents(mark: str) -> tuple[list[Document], Document]:
     data = pyoxigraph.serialize(inferred, format=pyoxigraph.RdfFormat.N_TRIPLES)
     assert data is not None
     data += f"{mark}\n".encode()
-    return asserted, Document("application/n-triples", data, INFERENCES_GRAPH)
+    return asserted, Document(N_TRIPLES, data, INFERENCES_GRAPH)
 
 
 def _indicated(scratch: pyoxigraph.Store) -> list[pyoxigraph.Triple]:
