@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from symboslam.engine.chain import chain_of
 from symboslam.engine.explanation import Explanation, Reason
 from symboslam.errors import InputError, UnknownNameError
 from symboslam.reasoning.knowledge import Environment, Indication
@@ -140,6 +141,7 @@ def _segment(properties: dict[str, Any]) -> Explanation:
                 )
                 for given in properties.get("reasons", ())
             ),
+            chain=chain_of(**properties["chain"]) if properties.get("chain") else None,
         )
     )
 
