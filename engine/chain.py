@@ -80,18 +80,21 @@ class Zoning:
         group = {member: g.name for g in knowledge.groups for member in g.members}
         self.group_of = {name: group.get(name, name) for name in self._names}
         self._zones: list[tuple[int, slice, tuple[str, ...]]] = []
-        table, columns, owner = knowledge.zones, [np.zeros((len(knowledge.features), 0))], []
-        above = _proximity(knowledge, measure, scheme)
+        table = knowledge.zones
+        columns, owner = [np.zeros((len(knowledge.features), 0))], list[int]()
+        whole = _proximity(knowledge, measure, scheme) if table else None
         for k, name in enumerate(self._names):
-            if table is not None and name in table.schemes:
-                below, whole = _proximity(table, measure, name), above[:, k, None]
-                zones = tuple(e.name for e in table.scheme(name))
-                self._zones.append((k, slice(len(owner), len(owner) + len(zones)), zones))
-                columns.append(np.divide(below, whole, out=np.zeros_like(below), where=whole > 0))
-                owner += [k] * len(zones)
+            if table is None or whole is None or name not in table.schemes:
+                continue
+            zones = tuple(e.name for e in table.scheme(name))
+            below, above = _proximity(table, measure, name), whole[:, k, None]
+            self._zones.append((k, slice(len(owner), len(owner) + len(zones)), zones))
+            columns.append(np.divide(below, above, out=np.zeros_like(below), where=above > 0))
+            owner += [k] * len(zones)
         self._passed = np.concatenate(columns, axis=1)  # (F, Z) SP(zone, f) / SP(e, f)
         self._owner = np.array(owner, np.int64)
-        self._says = np.zeros(above.shape, np.bool_)  # (F, K) whether f indicates a zone of e
+        # (F, K) whether f indicates a zone of e
+        self._says = np.zeros((len(knowledge.features), len(self._names)), np.bool_)
         for k, part, _ in self._zones:
             self._says[:, k] = self._passed[:, part].any(1)
 
@@ -124,18 +127,28 @@ class Zoning:
                 found[self._names[k]] = _shares(zones, evidence[part].tolist(), enough)
         return found
 
-    def chain(self, probability: Floats, shares: Shares) -> Chain:
-        """The chain of a segment with these (K,) probabilities and `shares`."""
+    def chain(self, probability: Floats, shares: Shares) -> Chain | None:
+        """The chain of a segment with these (K,) probabilities and `shares`.
+
+        None where it is unknown, and where there are neither groups nor zones to tell of.
+        """
         p = dict(zip(self._names, probability.tolist(), strict=True))
+        groups = self.groups(probability)
+        if not self.tells_more(groups, shares):
+            return None
         return Chain(
-            groups=self.groups(probability),
+            groups=groups,
             zones={
                 name: {zone: p[name] * share for zone, share in found.items() if share}
                 for name, found in shares.items()
                 if found is not None and p[name] > 0
             },
-            untold=tuple(n for n, found in shares.items() if found is None and p[n] > 0),
+            untold=tuple(sorted(n for n, found in shares.items() if found is None and p[n] > 0)),
         )
+
+    def tells_more(self, groups: Mapping[str, float], shares: Shares) -> bool:
+        """Whether a segment with such groups and zones is in any."""
+        return bool(shares or groups.keys() - self.group_of.keys())
 
 
 def _proximity(knowledge: Knowledge, measure: str, scheme: str | None) -> Floats:
@@ -145,9 +158,7 @@ def _proximity(knowledge: Knowledge, measure: str, scheme: str | None) -> Floats
     return knowledge.proximity(measure, scheme)
 
 
-def _shares(
-    zones: tuple[str, ...], evidence: list[float], enough: bool
-) -> dict[str, float] | None:
+def _shares(zones: tuple[str, ...], evidence: list[float], enough: bool) -> dict[str, float] | None:
     """Zone -> share of the evidence for zones; None where it does not tell them apart."""
     if len(zones) == 1:
         return {zones[0]: 1.0}

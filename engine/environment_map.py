@@ -14,11 +14,12 @@ import shapely
 from numpy.typing import NDArray
 
 from symboslam.engine._base import Contributions, Evidence
+from symboslam.engine.account import account_of
 from symboslam.engine.chain import Shares, Zoning
 from symboslam.engine.explanation import ClassParts, Explanation, Reason, reasons_of
 from symboslam.engine.grid import Cells
 from symboslam.engine.landmarks import LandmarkMap
-from symboslam.engine.wording import tell
+from symboslam.engine.wording import text_of
 from symboslam.errors import UnknownNameError
 from symboslam.reasoning.knowledge import Environment, Knowledge
 
@@ -76,6 +77,17 @@ class EnvironmentMap:
             )
         return found
 
+    def column_of(self, environment: str) -> int:
+        """Position of an environment in ``environments``.
+
+        Raises:
+            UnknownNameError: there is none of that name.
+        """
+        names = [e.name for e in self.environments]
+        if environment not in names:
+            raise UnknownNameError(f"no environment {environment!r}; there are {', '.join(names)}")
+        return names.index(environment)
+
     def contributions(self, segments: Sequence[int]) -> Iterator[Contributions]:
         """The landmarks behind each of the segments (positions), in units of P~."""
         cells = self.evidence_cells.take(np.asarray(segments, np.int64))
@@ -102,7 +114,7 @@ class EnvironmentMap:
     @cached_property
     def zoning(self) -> Zoning:
         """How probabilities are chained to plan zones and to groups of environment types."""
-        return Zoning(self.knowledge, self.config["scheme"], self.config.get("measure", "path"))
+        return Zoning(self.knowledge, self.config.get("scheme"), self.config.get("measure", "path"))
 
     def name_of(self, position: int) -> str | None:
         """Environment of a segment, or None if unknown."""
@@ -140,8 +152,9 @@ class EnvironmentMap:
         Raises:
             UnknownNameError: no such segment.
         """
-        return tell(
-            self.explain(segment_id), self.knowledge.find_indication, against=against, limit=limit
+        told = self.explain(segment_id)
+        return text_of(
+            account_of(told, self.knowledge.find_indication, against=against, limit=limit)
         )
 
     def shares(self) -> dict[str | None, float]:

@@ -73,8 +73,8 @@ class Block:
         landmark_count: s numbers.
         depth: s numbers.
         parts: the reasons of each segment; None if none are wanted.
-        chains: the chain of each segment; None where no reasons are wanted, for its zones are made
-            from them.
+        chains: the chain of each segment, None where it is unknown or in no group or zone; None if
+            no reasons are wanted, for zones are made from them.
     """
 
     geometry: NDArray[Any]
@@ -84,7 +84,7 @@ class Block:
     landmark_count: list[int]
     depth: list[int]
     parts: list[list[Part]] | None
-    chains: list[ChainPart] | None
+    chains: list[ChainPart | None] | None
 
 
 class Content:
@@ -123,11 +123,12 @@ class Content:
 
     def _told(
         self, start: int, probability: NDArray[np.int64]
-    ) -> tuple[list[list[Part]], list[ChainPart]]:
+    ) -> tuple[list[list[Part]], list[ChainPart | None]]:
         """The reasons and chains of the segments from ``start`` on, as many as there are rows."""
         found = self.map.told(range(start, start + len(probability)))
         names = self.environment_names
-        shown, chains = [], []
+        shown: list[list[Part]] = []
+        chains: list[ChainPart | None] = []
         for (reasons, shares), row in zip(found, probability.tolist(), strict=True):
             chances = dict(zip(names, row, strict=True))
             parts = rounded(reasons, chances, self._reasons)
@@ -136,12 +137,14 @@ class Content:
             chains.append(self._chain(chances, shares))
         return shown, chains
 
-    def _chain(self, chances: dict[str, int], shares: Shares) -> ChainPart:
+    def _chain(self, chances: dict[str, int], shares: Shares) -> ChainPart | None:
         groups: dict[str, int] = {}
         for name, n in chances.items():
             if n:
                 group = self.map.zoning.group_of[name]
                 groups[group] = groups.get(group, 0) + n
+        if not self.map.zoning.tells_more(groups, shares):
+            return None
         zones: dict[str, dict[str, int] | None] = {}
         for name, found in shares.items():
             if chances[name]:

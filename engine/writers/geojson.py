@@ -81,8 +81,8 @@ def _features(block: Block, names: list[str], distribution: str) -> Iterator[str
         known = label >= 0
         single = ',"single_landmark":true' if count == 1 else ""
         reasons = "" if block.parts is None else f',"reasons":{_reasons(block.parts[i])}'
-        if known and block.chains is not None:
-            reasons += f',"chain":{_chain(block.chains[i])}'
+        chain = None if block.chains is None else block.chains[i]
+        reasons += "" if chain is None else f',"chain":{_chain(chain)}'
         yield (
             f'{{"type":"Feature","geometry":{outlines[i]},"properties":{{'
             f'"segment_id":{_json(block.segment_id[i])},'

@@ -101,7 +101,9 @@ def terms(records: Records) -> Iterator[Record]:
         yield records.environment_named[name], found
     iris = {e.name: e.iri for e in records.map.environments}
     for name, level in levels.items():
-        found = _term(records, [iris[level["within"]]] if "within" in level else [], name, level["label"])
+        found = _term(
+            records, [iris[level["within"]]] if "within" in level else [], name, level["label"]
+        )
         if level["definition"]:
             found.append((s.iri(SKOS + "definition"), [s.text(level["definition"], "en")]))
         yield records.level_named[name], found

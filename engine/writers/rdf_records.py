@@ -147,8 +147,10 @@ class Records:
                 yield segment, found
                 if label >= 0:
                     parts = block.parts[i] if block.parts is not None else []
-                    chain = block.chains[i] if block.chains is not None else ChainPart({}, {})
-                    yield self._classification(name, segment, rows[i], parts, chain)
+                    chain = None if block.chains is None else block.chains[i]
+                    yield self._classification(
+                        name, segment, rows[i], parts, chain or ChainPart({}, {})
+                    )
             written += len(block.segment_id)
             options.tell("writing RDF", written / len(self.map))
 
@@ -193,7 +195,12 @@ class Records:
             return []
         zones = chain.zones[environment]
         if zones is None:
-            return [(self.syntax.iri(SL + "zonesToldApart"), [self.syntax.typed("false", XSD + "boolean")])]
+            return [
+                (
+                    self.syntax.iri(SL + "zonesToldApart"),
+                    [self.syntax.typed("false", XSD + "boolean")],
+                )
+            ]
         return [self._chained("hasZoneProbability", zones)] if zones else []
 
     def _groups(self, chain: ChainPart) -> Properties:
