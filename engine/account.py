@@ -223,6 +223,7 @@ def full_account(
     i = m.position_of(segment_id)
     if m.label[i] < 0:
         return replace(told, counterfactuals=() if counterfactual else None)
+    told = replace(told, indications=told.indications + _of_zones(m, told.explanation))
     try:
         local = local_evidence(m, i)
     except InputError:
@@ -235,6 +236,16 @@ def full_account(
         found = counterfactuals(m, segment_id, against=against, local=local)
         changes = tuple(_change(m, each) for each in found)
     return replace(told, landmarks=landmarks, pairs=pairs, counterfactuals=changes)
+
+
+def _of_zones(m: EnvironmentMap, explanation: Explanation) -> tuple[Indication, ...]:
+    """The axioms behind the zones of the segment's environment, where they are told apart."""
+    table, chain = m.knowledge.zones, explanation.chain
+    if table is None or chain is None or explanation.environment is None:
+        return ()
+    zones = chain.zones.get(explanation.environment, {})
+    found = (table.find_indication(r.feature, zone) for r in explanation.reasons for zone in zones)
+    return tuple(indication for indication in found if indication is not None)
 
 
 def _side(explanation: Explanation, environment: str, why: Why, limit: int) -> Side:

@@ -119,6 +119,6 @@ def reasons_of(
     found = []
     for row in order.tolist():
         known = knowledge.features[int(classes[row])]
-        parts = {n: v for n, v in zip(names, shares[row].tolist(), strict=True) if v}
-        found.append(Reason(known.name, known.label, int(counts[row]), parts))
+        added = {n: v for n, v in zip(names, shares[row].tolist(), strict=True) if v}
+        found.append(Reason(known.name, known.label, int(counts[row]), added))
     return tuple(found)

@@ -42,6 +42,13 @@ class LiveField:
         """Rows of the landmarks that have a say in some cells."""
         return reaching(self._table, self._grid, cells, self._widths)
 
+    def with_neighbours(self, rows: Rows) -> Rows:
+        """The rows, and those of the landmarks that may contradict them."""
+        if not self._contradicts or not len(rows):
+            return rows
+        xy = self._table.xy(rows)
+        return np.union1d(rows, self._around(xy[:, 0], xy[:, 1]))
+
     def denied(self, rows: Rows) -> Floats:
         """(m, K) for some rows."""
         if not self._contradicts:

@@ -11,6 +11,8 @@ from symboslam.engine.account import LEAST, Account, Change, Named, Side, Taken
 
 LENGTHS = ("line", "paragraph", "full")
 _IN_A_LINE = 3
+SMALLEST = 0.00005
+"""Differences below this are zeros in four digits."""
 
 
 def text_of(account: Account, length: str = "paragraph") -> str:
@@ -108,9 +110,12 @@ def _more(account: Account) -> Iterator[str]:
         gap = why.probability - other.probability
         yield (
             f"Why {why.environment} rather than {other.environment}: "
-            f"{why.probability:.4f} - {other.probability:.4f} = {gap:+.4f}, which is the sum of:"
+            f"{why.probability:.4f} - {other.probability:.4f} = {gap:+.4f}, which is the sum of "
+            "(smaller parts are left out):"
         )
         for d in account.differences:
+            if abs(d.difference) < SMALLEST:
+                break  # the largest come first
             subject = f"{d.count} x {d.label}" if d.count else d.label
             yield f"  {d.difference:+.4f}  {subject} ({d.winner:+.4f} less {d.other:+.4f})"
     if account.landmarks:

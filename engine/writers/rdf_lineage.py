@@ -183,12 +183,12 @@ def _agents(agents: NDArray[Any] | None) -> list[str]:
 
 def _term(records: Records, kinds: list[str], name: str, label: str) -> Properties:
     s = records.syntax
-    return [
-        records.a(OWL + "Class"),
-        *([(s.iri(RDFS + "subClassOf"), [s.iri(kind) for kind in kinds])] if kinds else []),
-        (s.iri(SKOS + "notation"), [s.text(name)]),
-        (s.iri(RDFS + "label"), [s.text(label, "en")]),
-    ]
+    found: Properties = [records.a(OWL + "Class")]
+    if kinds:
+        found.append((s.iri(RDFS + "subClassOf"), [s.iri(kind) for kind in kinds]))
+    found.append((s.iri(SKOS + "notation"), [s.text(name)]))
+    found.append((s.iri(RDFS + "label"), [s.text(label, "en")]))
+    return found
 
 
 def _indication(records: Records, environment: str, indication: dict[str, Any]) -> Properties:

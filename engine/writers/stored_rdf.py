@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections import defaultdict
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from symboslam.engine.chain import Chain, chain_of
 from symboslam.engine.explanation import Explanation, Reason
@@ -46,7 +48,30 @@ def _stored(index: Index, source: str) -> StoredMap:
             (i.feature, i.environment): i for f in features for i in _indications(index, f)
         },
         segments={segment.segment_id: segment for segment in segments},
+        config={
+            index.text(node, SL + "settingName"): _value(index.text(node, SL + "settingValue"))
+            for node in index.of_type(SL + "Setting")
+        },
+        knowledge_hash=next(
+            (index.text(node, SL + "sha256") for node in index.of_type(SL + "OntologySource")), ""
+        ),
+        iris={_name(index, term): term for term in [*features, *environments, *_levels(index)]},
     )
+
+
+def _levels(index: Index) -> list[str]:
+    """The groups and zones that occur."""
+    nodes = index.of_type(SL + "ChainedProbability")
+    found = {index.one(node, SL + "environment") for node in nodes}
+    return sorted(term for term in found if term is not None)
+
+
+def _value(text: str) -> Any:
+    """A setting as a plain value."""
+    try:
+        return json.loads(text)
+    except ValueError:
+        return text
 
 
 def _name(index: Index, term: str) -> str:

@@ -177,9 +177,9 @@ REASONS: Given = {
     1: (Reason("Shop", "shop", 1, {"Commercial": 1.0}),),
     3: (Reason("OpenGround", "open ground", 0, {"NonUrban": 1.0}),),
 }
-# In segment 0 the zones of Residential are told apart: 0.7 = 0.525 + 0.175.
+# In segment 0 the zones of Residential are told apart: 0.7 = 0.35 + 0.35.
 SHARES: Mapping[int, Shares] = {
-    0: {"Residential": {"RZ1": 0.75, "RZ2": 0.25}, "NonUrban": None},
+    0: {"Residential": {"RZ1": 0.5, "RZ2": 0.5}, "NonUrban": None},
     3: {"NonUrban": {"NUZ1": 0.0, "NUZ2": 1.0}},
 }
 LANDMARKS = (

@@ -140,7 +140,7 @@ def test_what_the_map_was_made_of(town: EnvironmentMap) -> None:
         "source_iri": "",
         "stands": "",
     }
-    assert about["levels"]["Urban"]["members"] == ["Residential", "Commercial"]
+    assert about["levels"]["Urban"]["members"] == ["Commercial", "Residential"]
     assert about["levels"]["RZ2"]["within"] == "Residential"
 
 
@@ -148,7 +148,7 @@ def test_chains_add_up_to_the_digit(town: EnvironmentMap) -> None:
     home, shop, unknown, ground = by_id(to_geojson(town, reasons=8)).values()
     assert home["chain"] == {
         "groups": {"Urban": 0.8, "NonUrban": 0.2},
-        "zones": {"Residential": {"RZ1": 0.525, "RZ2": 0.175}, "NonUrban": None},
+        "zones": {"Residential": {"RZ1": 0.35, "RZ2": 0.35}, "NonUrban": None},
     }
     assert shop["chain"] == {"groups": {"Urban": 1.0}, "zones": {}}
     assert "chain" not in unknown
