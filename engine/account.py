@@ -82,6 +82,7 @@ class LandmarkPart:
         feature: its class.
         label: the same for people.
         position: in the input's coordinates.
+        contribution: what it adds in all.
         own: what it adds by itself.
         pairs: what it adds, or loses, through others.
         without: P(winner) if it were not there, worked out anew; None where that is not known.
@@ -91,6 +92,7 @@ class LandmarkPart:
     feature: str
     label: str
     position: tuple[float, float]
+    contribution: float
     own: float
     pairs: float
     without: float | None = None
@@ -302,12 +304,14 @@ def _strongest(
                 feature.name,
                 feature.label,
                 (float(first[at]), float(second[at])),
+                float(own[row] + pairs[row]),
                 float(own[row]),
                 float(pairs[row]),
                 float(alone[at]),
             )
         )
-    among = order[:AMONG]
+    loudest = np.abs(local.own + local.pairs).max(1, initial=0)
+    among = np.argsort(-loudest, kind="stable")[:AMONG]
     through = local.between(among, label)[among] / total
     together = np.triu(through + through.T, 1)
     rows, columns = np.nonzero(together)

@@ -104,7 +104,7 @@ class _Graph:
             for name, share in reason.contribution.items():
                 self._contribution("hasContribution", name, share, reason.count, [reason.feature])
         for mark in self.account.landmarks:
-            parts = "hasLandmarkContribution", told.environment, mark.own + mark.pairs, 1
+            parts = "hasLandmarkContribution", told.environment, mark.contribution, 1
             self._contribution(*parts, [mark.feature], [mark.id])
         for pair in self.account.pairs:
             parts = "hasPairContribution", told.environment, pair.contribution, 2

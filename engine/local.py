@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from symboslam.engine.classify import proximity_of
 from symboslam.engine.field import CLOSE, FieldEvidence
+from symboslam.engine.grid import Cells, Grid
 from symboslam.engine.settings import Settings
 from symboslam.errors import InputError
 
@@ -47,7 +48,7 @@ class LocalEvidence(ABC):
     """
 
     def __init__(self, environment_map: EnvironmentMap, position: int) -> None:
-        self._map = environment_map
+        self._map, self._position = environment_map, position
         self._region = environment_map.evidence_cells.take(np.array([position]))
         parts = next(environment_map.contributions([position]))
         self.landmark, self.own, self.pairs, self.ground = (
@@ -195,10 +196,15 @@ class LocalPairs(LocalEvidence):
         self._diagonal = self._diagonal_behind()
 
     def _diagonal_behind(self) -> float:
-        """The segment's diagonal, which the nearness of its landmarks tells: the sum of d / it."""
-        far = (np.maximum(self._size - 1, 0) - self._near) * self._member
+        """The region's diagonal: the cell's, or what the nearness of its landmarks tells."""
+        if isinstance(self._region, Cells):
+            grid = Grid(self._map.landmarks.bbox, self._settings.cells)
+            west, south, east, north = grid.rectangles(self._region)
+            return float(np.hypot(east - west, north - south)[0])
+        far = (np.maximum(self._size - 1, 0) - self._near) * self._member  # sums of d / diagonal
         if not far.size or far.max() <= 0:
-            return 1.0  # all in one place, or no pairs
+            west, south, east, north = self._map.geometry[self._position].bounds
+            return float(np.hypot(east - west, north - south))  # no pairs, or all in one place
         x, e = np.unravel_index(far.argmax(), far.shape)
         apart = np.hypot(*(self._xy - self._xy[x]).T)
         return float(apart @ self._member[:, e] / far[x, e])

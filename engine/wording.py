@@ -123,7 +123,7 @@ def _more(account: Account) -> Iterator[str]:
         for mark in account.landmarks:
             without = "" if mark.without is None else f"; without it P = {mark.without:.4f}"
             yield (
-                f"  {mark.own + mark.pairs:+.4f}  {mark.label} {mark.id} "
+                f"  {mark.contribution:+.4f}  {mark.label} {mark.id} "
                 f"(by itself {mark.own:+.4f}, through others {mark.pairs:+.4f}{without})"
             )
     if account.pairs:
