@@ -9,6 +9,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from bench import cases
+from bench.explanations import explanations
 from bench.ingest import ingest
 from bench.measure import machine
 from bench.pitfalls import pitfalls
@@ -30,6 +31,7 @@ CASES: dict[str, tuple[Callable[[], str], Callable[[], str]]] = {
         lambda: cases.growth((10_000, 100_000, 1_000_000)),
         lambda: cases.growth((300, 900)),
     ),
+    "explanations": (lambda: explanations(4000.0, 12), lambda: explanations(1000.0, 60)),
     "start-up": (lambda: cases.start_up(11), lambda: cases.start_up(1)),
     "knowledge": (cases.knowledge, cases.knowledge),
     "reasoning": (lambda: reasoning(5), lambda: reasoning(1)),
