@@ -148,21 +148,20 @@ class Statements:
             return {}
         records = Records(Content(self._live.described(landmarks)), self._syntax)
         graph = self._graph("landmarks")
-        texts = [self._syntax.statements(graph, s, p) for s, p in records.landmarks()]
+        told = [self._syntax.lines(graph, s, p) for s, p in records.landmarks()]
         return {
-            each.id: frozenset((texts[2 * i] + texts[2 * i + 1]).splitlines(keepends=True))
-            for i, each in enumerate(landmarks)
+            each.id: frozenset(told[2 * i] + told[2 * i + 1]) for i, each in enumerate(landmarks)
         }
 
     def _by_segment(self, records: Records) -> dict[str, Lines]:
         """Segment -> its statements and those about its classification."""
         found: dict[str, list[str]] = {}
-        segment, name = self._syntax.own("segment")[:-1] + "/", ""
+        graph, name = self._graph("segments"), ""
+        segment = self._syntax.own("segment")[:-1] + "/"
         for subject, properties in records.segments(self._options):
             if subject.startswith(segment):
                 name = subject[len(segment) : -1]
-            text = self._syntax.statements(self._graph("segments"), subject, properties)
-            found.setdefault(name, []).extend(text.splitlines(keepends=True))
+            found.setdefault(name, []).extend(self._syntax.lines(graph, subject, properties))
         return {name: frozenset(lines) for name, lines in found.items()}
 
     def _about_overrides(self) -> Iterator[str]:
