@@ -12,6 +12,7 @@ import asyncio
 import contextlib
 import json
 import os
+import shutil
 import sys
 from collections import OrderedDict, deque
 from collections.abc import AsyncIterator, Awaitable, Callable
@@ -49,7 +50,7 @@ class Worker:
 
     Args:
         process: it.
-        file: where it puts what is not small.
+        file: where it puts what is not small; a copy of the store to write to goes beside it.
 
     Attributes:
         snapshot: the folder that it has open, if it has.
@@ -58,6 +59,7 @@ class Worker:
 
     def __init__(self, process: asyncio.subprocess.Process, file: Path) -> None:
         self.process, self._file = process, file
+        self._copy = file.with_suffix(".store")
         self.snapshot: str | None = None
         self.stepped_back = False
 
@@ -83,7 +85,8 @@ class Worker:
         assert source is not None
         assert target is not None
         try:
-            target.write(json.dumps({**request, "file": str(self._file)}).encode() + b"\n")
+            places = {"file": str(self._file), "copy": str(self._copy)}
+            target.write(json.dumps({**request, **places}).encode() + b"\n")
             await target.drain()
             line = await source.readline()
             if not line:
@@ -112,6 +115,7 @@ class Worker:
         if self.process.stdin is not None:
             self.process.stdin.close()
         self._file.unlink(missing_ok=True)
+        await asyncio.to_thread(shutil.rmtree, self._copy, ignore_errors=True)
 
 
 class _NotQuickError(Exception):
@@ -174,9 +178,9 @@ class Pool:
 
     async def start(self) -> None:
         """Start all workers."""
-        self._spool.mkdir(parents=True, exist_ok=True)
-        for left in self._spool.iterdir():
-            left.unlink()
+        if self._spool.exists():
+            shutil.rmtree(self._spool)
+        self._spool.mkdir(parents=True)
         await asyncio.gather(*(self._add() for _ in range(self._processes)))
 
     async def stop(self) -> None:
