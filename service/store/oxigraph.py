@@ -292,9 +292,11 @@ class OxigraphStore(Store):
         return new
 
     def _update(self, text: str, base: str | None) -> None:
+        from symboslam.service.store.geosparql import FUNCTIONS
+
         try:
             with _told():
-                self._open.update(text, base_iri=base)
+                self._open.update(text, base_iri=base, custom_functions=FUNCTIONS)
         except (SyntaxError, ValueError) as error:
             raise QueryError(*place_and_problem(error)) from error
         except RuntimeError as error:  # "The graph ... does not exist", and the like

@@ -25,6 +25,7 @@ from typing import IO, Any, cast
 import pyoxigraph
 
 from symboslam.service.store.documents import place_and_problem
+from symboslam.service.store.geosparql import FUNCTIONS
 from symboslam.service.vocabulary import PREFIXES, SOLUTIONS, TRIPLES
 
 _PR_SET_PDEATHSIG = 1
@@ -165,6 +166,7 @@ def _query(store: pyoxigraph.Store, request: dict[str, Any], sink: IO[bytes]) ->
             request["text"],
             base_iri=request["base"],
             use_default_graph_as_union=request["union"] and not graphs,
+            custom_functions=FUNCTIONS,
             **graphs,
         )
     except (SyntaxError, ValueError) as error:
@@ -220,7 +222,9 @@ def _rehearse(request: dict[str, Any]) -> dict[str, Any]:
         if "error" not in reply and "snapshot" in request:
             with _copy(Path(request["snapshot"]), Path(request["copy"])) as copy:
                 with contextlib.suppress(RuntimeError):
-                    copy.update(request["text"], base_iri=request["base"])
+                    copy.update(
+                        request["text"], base_iri=request["base"], custom_functions=FUNCTIONS
+                    )
 
     failed: list[Exception] = []
 
