@@ -55,7 +55,7 @@ _DETAILS = {
     404: "It is not there.",
     406: "None of the formats that are accepted can be given.",
     408: "The body did not arrive in time.",
-    409: "Something else was taken under this name before.",
+    409: "Something else was taken under this name before, or keeps it.",
     413: "The body is too large.",
     415: "The media type, character encoding or compression is not understood.",
     422: "Well-formed, and yet not possible; says what is wrong and where.",

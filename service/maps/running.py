@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-from collections import Counter
+from collections import Counter, OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
@@ -33,6 +33,7 @@ from symboslam.service.vocabulary import N_TRIPLES
 T = TypeVar("T")
 MOST_WAITING = 256
 """Batches that may wait for a map."""
+_MOST_KEPT = 4
 _TOGETHER = 64
 """Batches that are taken at a time."""
 
@@ -84,15 +85,17 @@ class RunningMap:
         self._lock = asyncio.Lock()
         self._waiting: list[Waiting] = []
         self._worker: asyncio.Task[None] | None = None
-        self._cache: dict[str, tuple[int, Any]] = {}
+        self._cache: OrderedDict[str, tuple[int, Any]] = OrderedDict()
 
     async def read(self, key: str, make: Callable[[LiveMap], T]) -> T:
-        """Something made of the map as it is now; the same is made once for each revision."""
+        """Something made of the map as it is now; the last few are kept until it changes."""
         async with self._lock:
-            revision, found = self._cache.get(key, (-1, None))
+            revision, found = self._cache.pop(key, (-1, None))
             if revision != self.record.revision:
                 found = await asyncio.to_thread(make, self.live)
-                self._cache[key] = self.record.revision, found
+            self._cache[key] = self.record.revision, found
+            while len(self._cache) > _MOST_KEPT:
+                self._cache.popitem(last=False)
             return found  # type: ignore[no-any-return]
 
     async def segment(self, name: str) -> EnvironmentMap:
@@ -145,9 +148,13 @@ class RunningMap:
             self.record = record
             ended = datetime.fromisoformat(record.changed)
             await self._patch(*await asyncio.to_thread(self._statements.override, override, ended))
-            self.events.publish(
-                record.revision, {"override": override.id, "segment": override.segment}
-            )
+            told = {
+                "id": override.id,
+                "environment": override.environment or None,
+                "operator": override.operator,
+                "undone": override.undone is not None,
+            }
+            self.events.publish(record.revision, {"segment": override.segment, "override": told})
             return override
 
     async def remove(self) -> None:

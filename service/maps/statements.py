@@ -35,10 +35,12 @@ class Statements:
         live: the map.
         base: IRI below which its own IRIs and graphs lie, ending in ``/``.
         reasons: how many reasons of a segment are stated, the strongest first.
+        title: what people call the map.
     """
 
-    def __init__(self, live: LiveMap, base: str, reasons: int) -> None:
+    def __init__(self, live: LiveMap, base: str, reasons: int, title: str = "") -> None:
         self._live, self.base, self._options = live, base, WriteOptions(reasons)
+        self._title = title
         self._syntax = Skolemised(base, {})
         self._landmarks: dict[str, Lines] = {}
         self._segments: dict[str, Lines] = {}
@@ -123,7 +125,8 @@ class Statements:
     def _lineage(self, records: Records, ended: datetime) -> Lines:
         """Where the statements come from, as of now."""
         seen = len(self._live.table), sorted(self._agents)
-        self._provenance = self._lines(provenance(records, ended, seen), "provenance")
+        told = provenance(records, ended, seen, self._title)
+        self._provenance = self._lines(told, "provenance")
         return self._provenance
 
     def _of_landmarks(self, change: Change) -> tuple[set[str], set[str]]:

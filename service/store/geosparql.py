@@ -60,7 +60,7 @@ def distance(*arguments: Any) -> pyoxigraph.Literal | None:
     return pyoxigraph.Literal(repr(metres / _UNITS[arguments[2].value]), datatype=_DOUBLE)
 
 
-FUNCTIONS = {_DISTANCE: distance}
+FUNCTIONS: dict[Any, Any] = {_DISTANCE: distance}
 """What queries and updates get in the place of Oxigraph's own."""
 
 

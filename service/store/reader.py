@@ -25,7 +25,6 @@ from typing import IO, Any, cast
 import pyoxigraph
 
 from symboslam.service.store.documents import place_and_problem
-from symboslam.service.store.geosparql import FUNCTIONS
 from symboslam.service.vocabulary import PREFIXES, SOLUTIONS, TRIPLES
 
 _PR_SET_PDEATHSIG = 1
@@ -166,7 +165,7 @@ def _query(store: pyoxigraph.Store, request: dict[str, Any], sink: IO[bytes]) ->
             request["text"],
             base_iri=request["base"],
             use_default_graph_as_union=request["union"] and not graphs,
-            custom_functions=FUNCTIONS,
+            custom_functions=_functions(request["text"]),
             **graphs,
         )
     except (SyntaxError, ValueError) as error:
@@ -188,6 +187,15 @@ def _query(store: pyoxigraph.Store, request: dict[str, Any], sink: IO[bytes]) ->
         return {"error": "not-acceptable", "kind": "true or false" if is_boolean else "a table"}
     result.serialize(sink, getattr(pyoxigraph.QueryResultsFormat, SOLUTIONS[media_type]))
     return {"media_type": media_type}
+
+
+def _functions(text: str) -> dict[Any, Any]:
+    """The functions of ours that a text may call; they take a while to load."""
+    if "geosparql" not in text:
+        return {}
+    from symboslam.service.store.geosparql import FUNCTIONS
+
+    return FUNCTIONS
 
 
 def _graph(store: pyoxigraph.Store, request: dict[str, Any], sink: IO[bytes]) -> dict[str, Any]:
@@ -223,7 +231,9 @@ def _rehearse(request: dict[str, Any]) -> dict[str, Any]:
             with _copy(Path(request["snapshot"]), Path(request["copy"])) as copy:
                 with contextlib.suppress(RuntimeError):
                     copy.update(
-                        request["text"], base_iri=request["base"], custom_functions=FUNCTIONS
+                        request["text"],
+                        base_iri=request["base"],
+                        custom_functions=_functions(request["text"]),
                     )
 
     failed: list[Exception] = []

@@ -368,6 +368,19 @@ def test_events(shared: Service) -> None:
     got.clear()
     watch(7, 1)  # who knows of a future that is not ours
     assert got[0][0] == "reset"
+    got.clear()
+    segment = get(shared, f"{identifier}/segments")["features"][0]["properties"]["segment_id"]
+    path = f"/v1/maps/{identifier}/segments/{segment}/override"
+    given = {"environment": "Industrial", "operator": "Ada"}
+    assert shared.client.put(path, json=given, headers=ADMIN).is_success
+    assert shared.client.delete(path, headers=ADMIN).is_success
+    watch(2, 2)
+    told = [(data["segment"], data["override"]) for _, data in got]
+    assert [name for name, _ in told] == [segment, segment]
+    assert [each["environment"].rpartition("#")[2] for _, each in told] == ["Industrial"] * 2
+    assert [(each["operator"], each["undone"]) for _, each in told] == [
+        ("Ada", False), ("Ada", True)
+    ]  # fmt: skip
 
 
 def test_maps_are_there_after_a_restart(
