@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
@@ -96,12 +97,13 @@ def from_object(document: object, name: str, *, points: bool = False) -> Places:
         raise InputError(f"{name}: no feature has a property `environment`")
     found = Found(name, coordinate_system(crs_of(document, name), name), points)
     areas = []
-    for index, (geometry, properties) in enumerate(parts):
+    shapes = _shapes([geometry for geometry, _ in parts], name)
+    for index, (geometry, (_, properties)) in enumerate(zip(shapes, parts, strict=True)):
         place = _place(index)
         environment = properties.get("environment")
         if environment is not None and not isinstance(environment, str):
             raise InputError(f"{name}: {place}: its environment is {environment!r}, not text")
-        if found.add(_shape(geometry, f"{name}: {place}"), place):
+        if found.add(geometry, place):
             found.environment.append(environment)
             given = _probabilities(properties.get("probabilities"), f"{name}: {place}")
             found.probabilities.append(given)
@@ -251,8 +253,20 @@ def _parts(feature: object, index: int, name: str) -> tuple[object, Mapping[str,
     raise InputError(f"{name}: {_place(index)}: this is no GeoJSON feature")
 
 
+def _shapes(geometries: Sequence[object], name: str) -> NDArray[Any]:
+    """The shapely geometries, in the plane; None for none.
+
+    All are read at once; what that refuses is read alone, which closes open rings or says why not.
+    """
+    texts = [json.dumps(geometry, default=str) for geometry in geometries]
+    found = shapely.force_2d(np.asarray(shapely.from_geojson(texts, on_invalid="ignore"), object))
+    for i in np.flatnonzero(shapely.is_missing(found)).tolist():
+        found[i] = _shape(geometries[i], f"{name}: {_place(i)}")
+    return np.asarray(found)
+
+
 def _shape(geometry: object, where: str) -> Any:
-    """The shapely geometry, in the plane; None for none."""
+    """One shapely geometry, in the plane; None for none."""
     if geometry is None:
         return None
     try:

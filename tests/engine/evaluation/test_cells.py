@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 import shapely
@@ -79,7 +81,7 @@ def test_points() -> None:
 def test_same_as_looking_at_every_sample_point(seed: int) -> None:
     rng = np.random.default_rng(seed)
     count, cells = 4, 3
-    shapes = []
+    shapes: list[Any] = []
     for _ in range(int(rng.integers(1, 9))):
         centre, radius = rng.random(2) * 40, rng.random() * 20 + 1
         corners = centre + radius * rng.random((3 + int(rng.integers(4)), 2))
@@ -89,7 +91,7 @@ def test_same_as_looking_at_every_sample_point(seed: int) -> None:
     kind = rng.integers(-1, count, len(shapes))
     probability = rng.random((len(shapes), count))
     label, mean = cells_of_polygons(geometry, shapely.area(geometry), kind, probability, BOX, cells)
-    ranked = sorted(range(len(shapes)), key=lambda i: float(geometry[i].area))
+    ranked = sorted(range(len(shapes)), key=lambda i: float(shapes[i].area))
     step = 40 / cells / 10
     for cell in range(cells * cells):
         row, column = divmod(cell, cells)
