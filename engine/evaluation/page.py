@@ -32,8 +32,9 @@ def html_report(evaluation: Evaluation) -> str:
         _tiles(evaluation),
         "<h2>Truth and map side by side</h2>",
         '<p class="help">A cross marks a cell where the map is wrong; cells without a truth are '
-        "pale. Choose an environment to see it alone. In the maps the arrow keys go from cell to "
-        "cell, <kbd>n</kbd> and <kbd>p</kbd> to the next and the previous error.</p>",
+        "striped in the truth and pale in the map. Choose an environment to see it alone. In the "
+        "maps the arrow keys go from cell to cell, <kbd>n</kbd> and <kbd>p</kbd> to the next and "
+        "the previous error.</p>",
         _legend(evaluation),
     ]
     body += [_maps(pair, evaluation, i) for i, pair in enumerate(evaluation.pairs)]
@@ -117,7 +118,7 @@ def _swatch(fill: str) -> str:
 
 # One tile of a pattern is one cell, so every wrong cell gets a cross of its own.
 _PATTERNS = (
-    '<svg width="0" height="0" aria-hidden="true"><defs>'
+    '<svg class="patterns" width="0" height="0" aria-hidden="true"><defs>'
     '<pattern id="wrong" width="1" height="1" patternUnits="userSpaceOnUse">'
     '<path d="M.22 .22L.78 .78M.78 .22L.22 .78" stroke="#fff" stroke-width=".26"/>'
     '<path d="M.22 .22L.78 .78M.78 .22L.22 .78" stroke="#000" stroke-width=".12"/></pattern>'
