@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from functools import cache
 from html import escape
 from importlib.resources import files
@@ -11,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symboslam.engine.evaluation import reports
-from symboslam.engine.evaluation.evaluation import Evaluation, Pair
+from symboslam.engine.evaluation.evaluation import Evaluation
 from symboslam.engine.evaluation.metrics import Ints, Scores
+from symboslam.engine.evaluation.pairs import Pair
 from symboslam.engine.writers.html import csp_hash, printable
 
 _NONE = "."
@@ -216,7 +218,7 @@ def _table(head: list[str], rows: list[list[str]]) -> str:
 def _matrix(scores: Scores, names: tuple[str, ...]) -> str:
     """The confusion matrix; the darker, the larger the share of the row."""
     head, rows = reports.confusion_rows(scores, names)
-    columns = "".join(f'<th scope="col">{escape(name)}</th>' for name in head)
+    columns = "".join(f'<th scope="col">{_breakable(name)}</th>' for name in head)
     body = ""
     for i, (name, *cells) in enumerate(rows):
         total = max(sum(map(int, cells)), 1)
@@ -231,3 +233,8 @@ def _matrix(scores: Scores, names: tuple[str, ...]) -> str:
         "map in columns. Framed: right. The darker, the larger the share of the row.</caption>"
         f"<thead><tr>{columns}</tr></thead><tbody>{body}</tbody></table></div>"
     )
+
+
+def _breakable(name: str) -> str:
+    """A name that may be broken before its capitals, so that a column can be narrow."""
+    return "<wbr>".join(map(escape, re.split(r"(?<=[a-z])(?=[A-Z])", name)))
