@@ -95,7 +95,7 @@ def from_object(document: object, name: str, knowledge: FeatureIndex) -> Columns
         kind=np.array(codes, np.int32),
         kinds=_kinds(kinds, codes, name),
         place=_place,
-        crs=_crs(collection, name),
+        crs=crs_of(collection, name),
         crs_from="file" if collection.get("crs_units") or collection.get("crs") else "default",
         confidence=_numbers(confidence, "confidence", name),
         id=_texts(ids, "id", name),
@@ -157,8 +157,12 @@ def _collection(document: object, name: str) -> tuple[Mapping[str, Any], list[An
     raise LandmarkError(problem, source=name)
 
 
-def _crs(collection: Mapping[str, Any], name: str) -> str:
-    """The coordinate system that the collection names: ``crs_units``, or the old ``crs``."""
+def crs_of(collection: Mapping[str, Any], name: str) -> str:
+    """The coordinate system that the collection names: ``crs_units``, or the old ``crs``.
+
+    Raises:
+        GeometryError: what it says is none, or it says both.
+    """
     units, crs = collection.get("crs_units"), collection.get("crs")
     if units not in (None, METRES):
         raise GeometryError(

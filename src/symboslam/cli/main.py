@@ -10,6 +10,7 @@ import typer
 from symboslam.cli import (
     classify,
     cq,
+    evaluate,
     explain,
     ontology,
     pitfalls,
@@ -35,6 +36,7 @@ app = typer.Typer(
 )
 app.command("classify", epilog=classify.EXAMPLES)(classify.classify)
 app.command("explain", epilog=explain.EXAMPLES)(explain.explain)
+app.command("evaluate", epilog=evaluate.EXAMPLES)(evaluate.evaluate)
 app.command("feature", epilog=show.FEATURE_EXAMPLES)(show.feature)
 app.command("environments")(show.environments)
 app.command("sample")(show.sample)
