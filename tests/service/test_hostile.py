@@ -109,7 +109,7 @@ def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
     """A server in a process of its own, as ``symboslam serve`` is."""
     settings = {
         "SYMBOSLAM_WORKERS": WORKERS, "SYMBOSLAM_QUICK_WORKERS": QUICK,
-        "SYMBOSLAM_WORKER_MEMORY": WORKER_MEMORY, "SYMBOSLAM_QUERY_SECONDS": 1,
+        "SYMBOSLAM_WORKER_MEMORY": WORKER_MEMORY, "SYMBOSLAM_QUERY_SECONDS": 0.5,
         "SYMBOSLAM_BODY_SECONDS": 3,
         "SYMBOSLAM_BUNDLED_ONTOLOGY": "false", "SYMBOSLAM_ADMIN_TOKEN": TOKEN,
     }  # fmt: skip
