@@ -109,7 +109,7 @@ def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
     """A server in a process of its own, as ``symboslam serve`` is."""
     settings = {
         "SYMBOSLAM_WORKERS": WORKERS, "SYMBOSLAM_QUICK_WORKERS": QUICK,
-        "SYMBOSLAM_WORKER_MEMORY": WORKER_MEMORY, "SYMBOSLAM_QUERY_SECONDS": 0.5,
+        "SYMBOSLAM_WORKER_MEMORY": WORKER_MEMORY, "SYMBOSLAM_QUERY_SECONDS": 1,
         "SYMBOSLAM_BODY_SECONDS": 3,
         "SYMBOSLAM_BUNDLED_ONTOLOGY": "false", "SYMBOSLAM_ADMIN_TOKEN": TOKEN,
     }  # fmt: skip
@@ -197,10 +197,12 @@ def one_by_one(served: Served) -> dict[str, int]:
 
 
 def at_once(served: Served) -> dict[str, int]:
-    with ThreadPoolExecutor(len(QUERIES)) as pool:
+    with ThreadPoolExecutor(len(QUERIES) + len(UPDATES)) as pool:
         asked = {
             name: pool.submit(ask, served.url, text, HEADERS) for name, text in QUERIES.items()
         }
+        for name, text in UPDATES.items():
+            asked[f"update: {name}"] = pool.submit(ask, served.url, text, UPDATE)
         return {name: future.result() for name, future in asked.items()}
 
 
@@ -208,7 +210,7 @@ def test_there_are_twenty() -> None:
     assert len(QUERIES) >= 20
 
 
-@pytest.mark.parametrize("how", [one_by_one, at_once])
+@pytest.mark.parametrize("how", [pytest.param(one_by_one, marks=pytest.mark.slow), at_once])
 def test_queries(served: Served, how: Callable[[Served], dict[str, int]]) -> None:
     with a_victim(served) as victim:
         found = how(served)

@@ -141,7 +141,7 @@ class Load:
 def make_map(client: httpx.Client, number: int) -> str:
     wanted = {
         "name": f"map {number}", "bbox": [0, 0, SIDE, SIDE], "crs": "m",
-        "segmentation": {"cells": 12, "threshold": 0.6},
+        "segmentation": {"cells": 8, "threshold": 0.6},
     }  # fmt: skip
     return str(client.post("/v1/maps", json=wanted, headers=ADMIN).raise_for_status().json()["id"])
 
