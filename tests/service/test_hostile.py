@@ -189,21 +189,21 @@ HEADERS = {"Content-Type": "application/sparql-query"}
 REFUSED = (200, 204, 400, 403, 413, 422, 429, 503, 504)
 
 
+def updates(served: Served) -> dict[str, int]:
+    return {f"update: {name}": ask(served.url, text, UPDATE) for name, text in UPDATES.items()}
+
+
 def one_by_one(served: Served) -> dict[str, int]:
     found = {name: ask(served.url, text, HEADERS) for name, text in QUERIES.items()}
-    for name, text in UPDATES.items():
-        found[f"update: {name}"] = ask(served.url, text, UPDATE)
-    return found
+    return found | updates(served)
 
 
 def at_once(served: Served) -> dict[str, int]:
-    with ThreadPoolExecutor(len(QUERIES) + len(UPDATES)) as pool:
+    with ThreadPoolExecutor(len(QUERIES)) as pool:
         asked = {
             name: pool.submit(ask, served.url, text, HEADERS) for name, text in QUERIES.items()
         }
-        for name, text in UPDATES.items():
-            asked[f"update: {name}"] = pool.submit(ask, served.url, text, UPDATE)
-        return {name: future.result() for name, future in asked.items()}
+        return {name: future.result() for name, future in asked.items()} | updates(served)
 
 
 def test_there_are_twenty() -> None:
