@@ -81,7 +81,7 @@ def test_explain_reads_what_classify_wrote(
     run: Any, town: Path, tmp_path: Path, suffix: str
 ) -> None:
     geojson, out = tmp_path / "first.geojson", tmp_path / f"map.{suffix}"
-    assert run("classify", town, "--out", geojson, "--out", out).code == 0
+    assert run("classify", town, "--out", geojson, "--out", out, "--cells", 8).code == 0
     features = json.loads(geojson.read_text())["features"]
     home = next(f for f in features if f["properties"]["environment"] == "Residential")
     name = home["properties"]["segment_id"]

@@ -8,6 +8,7 @@ import tarfile
 import threading
 from collections.abc import Callable
 from pathlib import Path
+from shutil import copytree
 from typing import Any
 
 import httpx
@@ -29,7 +30,10 @@ def quiet(stage: str, share: float) -> None:
 
 
 def make_map(client: httpx.Client, **options: Any) -> str:
-    wanted = {"name": "a map", "bbox": [0, 0, SIDE, SIDE], "crs": "m", **options}
+    wanted = {
+        "name": "a map", "bbox": [0, 0, SIDE, SIDE], "crs": "m", "segmentation": {"cells": 6},
+        **options,
+    }  # fmt: skip
     return str(client.post("/v1/maps", json=wanted, headers=ADMIN).raise_for_status().json()["id"])
 
 
@@ -191,13 +195,26 @@ def test_who_may(make_service: MakeService, tmp_path: Path) -> None:
     assert "another process" in text
 
 
+@pytest.fixture(scope="module")
+def filled(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a service that was filled; to be copied."""
+    folder = tmp_path_factory.mktemp("filled") / "data"
+    open_again(folder, fill)
+    return folder
+
+
 @pytest.fixture
-def archive(tmp_path: Path) -> Path:
+def data(filled: Path, tmp_path: Path) -> Path:
+    """A folder of the test's own with a map and more."""
+    return copytree(filled, tmp_path / "data")
+
+
+@pytest.fixture
+def archive(data: Path, tmp_path: Path) -> Path:
     """A backup of a service with a map."""
-    open_again(tmp_path / "data", fill)
     file = tmp_path / "b.tar.gz"
     with file.open("wb") as target:
-        back_up(tmp_path / "data", target, quiet)
+        back_up(data, target, quiet)
     return file
 
 
@@ -321,19 +338,18 @@ ANY = "?g { ?s ?p ?o }"
         ("DROP ALL", "the graph landmarks is missing, the graph segments is missing"),
     ],
 )  # fmt: skip
-def test_what_the_store_should_not_say(tmp_path: Path, text: str, said: str) -> None:
-    open_again(tmp_path / "data", fill)
-    code, found = symboslam("store", "check", tmp_path / "data")
+def test_what_the_store_should_not_say(data: Path, text: str, said: str) -> None:
+    code, found = symboslam("store", "check", data)
     assert code == 0, found
-    tamper(tmp_path / "data", text)
-    code, found = symboslam("store", "check", tmp_path / "data")
+    tamper(data, text)
+    code, found = symboslam("store", "check", data)
     assert code == 1
     assert said in found
     assert "--repair" in found
-    code, found = symboslam("store", "check", tmp_path / "data", "--repair", "--shapes")
+    code, found = symboslam("store", "check", data, "--repair", "--shapes")
     assert code == 0, found
     assert "repaired: map" in found
-    code, found = symboslam("store", "check", tmp_path / "data")
+    code, found = symboslam("store", "check", data)
     assert code == 0, found
 
 
@@ -357,11 +373,10 @@ def test_a_folder_that_is_none(tmp_path: Path) -> None:
     assert not list(tmp_path.iterdir())
 
 
-def test_records_that_belong_to_no_map(tmp_path: Path) -> None:
-    open_again(tmp_path / "data", fill)
-    with sqlite3.connect(tmp_path / "data" / "service.sqlite3") as database:
+def test_records_that_belong_to_no_map(data: Path) -> None:
+    with sqlite3.connect(data / "service.sqlite3") as database:
         database.execute("INSERT INTO name VALUES ('nowhere', 'a', 'b', 'c')")
     database.close()
-    code, text = symboslam("store", "check", tmp_path / "data")
+    code, text = symboslam("store", "check", data)
     assert code == 1
     assert "1 rows belong to no map" in text

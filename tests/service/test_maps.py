@@ -33,7 +33,7 @@ SL = "PREFIX sl: <https://w3id.org/symboslam#> PREFIX prov: <http://www.w3.org/n
 @pytest.fixture(scope="module")
 def town() -> dict[str, Any]:
     whole = sample_area(3, 1000.0)
-    return {**whole, "features": whole["features"][::2]}
+    return {**whole, "features": whole["features"][::4]}
 
 
 @pytest.fixture(scope="module")
@@ -180,7 +180,7 @@ def test_sparql_sees_what_was_acknowledged(shared: Service) -> None:
 def test_the_same_as_at_one_go(shared: Service, town: dict[str, Any], tmp_path: Path) -> None:
     """However it came about, a map is what classify makes of its landmarks; valid as stated."""
     identifier = make(
-        shared, bbox=town["bbox"], crs=None, merge_radius=0, segmentation={"cells": 12}
+        shared, bbox=town["bbox"], crs=None, merge_radius=0, segmentation={"cells": 8}
     )
     count = push_town(shared, identifier, town)
     info = get(shared, identifier)
@@ -215,7 +215,7 @@ def test_what_is_stated_later_is_what_is_stated_at_once(
 ) -> None:
     """Differences that were sent to the store add up to all statements of the end."""
     service = make_service(rate="")
-    identifier = make(service, bbox=town["bbox"], crs=None)
+    identifier = make(service, bbox=town["bbox"], crs=None, segmentation={"cells": 12})
     push_town(service, identifier, town)
     grown = {name: lines_of(service, identifier, name) for name in GRAPHS}
     one = service.app.state.maps._running[identifier]
@@ -254,7 +254,7 @@ def test_explanations(shared: Service) -> None:
 
 
 def test_overrides_are_statements_of_their_own(shared: Service, tmp_path: Path) -> None:
-    identifier = make(shared)
+    identifier = make(shared, segmentation={"cells": 8})
     send(shared, identifier, at("House", 100, 100))
     segment = get(shared, f"{identifier}/segments")["features"][0]["properties"]["segment_id"]
     path = f"/v1/maps/{identifier}/segments/{segment}/override"
@@ -284,7 +284,7 @@ def test_overrides_are_statements_of_their_own(shared: Service, tmp_path: Path) 
 
 
 def test_an_override_outlives_its_segment(shared: Service, tmp_path: Path) -> None:
-    identifier = make(shared)
+    identifier = make(shared, segmentation={"cells": 8})
     path = f"/v1/maps/{identifier}/segments/0-0-0/override"
     wanted = {"environment": "Military"}
     assert shared.client.put(path, json=wanted, headers=ADMIN).status_code == 200

@@ -193,7 +193,7 @@ def schemathesis(service: Service, folder: Path, examples: int, token: bool) -> 
 
 
 def test_schemathesis_finds_nothing(described: Service, tmp_path: Path) -> None:
-    schemathesis(described, tmp_path, 20, True)
+    schemathesis(described, tmp_path, 5, True)
 
 
 @pytest.mark.slow
