@@ -136,26 +136,34 @@ class RunningMap:
             self._worker = asyncio.create_task(self._work())
         return await asyncio.shield(done)
 
-    async def override(self, override: Override) -> Override:
-        """Make an operator's statement, or take it back."""
+    async def override(self, segment: str, made: Override | None = None) -> list[Override]:
+        """Take back what operators say of a segment, and state something else if it is given.
+
+        Returns:
+            What was changed, the new statement last; nothing where nothing was in force.
+        """
         async with self._lock:
             await self._ready()
-            if not override.snapshot:
-                snapshot = self._statements.of_segment(override.segment)
-                override = replace(override, snapshot=snapshot)
             record = self._next()
-            await asyncio.to_thread(self._records.keep_override, record, override)
+            known = await asyncio.to_thread(self._records.overrides, record.id)
+            changed = [
+                replace(each, undone=record.changed)
+                for each in known
+                if each.segment == segment and each.undone is None
+            ]
+            if made is not None:
+                changed.append(replace(made, snapshot=self._statements.of_segment(segment)))
+            if not changed:
+                return []
+            await asyncio.to_thread(self._records.keep_overrides, record, changed)
             self.record = record
             ended = datetime.fromisoformat(record.changed)
-            await self._patch(*await asyncio.to_thread(self._statements.override, override, ended))
-            told = {
-                "id": override.id,
-                "environment": override.environment or None,
-                "operator": override.operator,
-                "undone": override.undone is not None,
-            }
-            self.events.publish(record.revision, {"segment": override.segment, "override": told})
-            return override
+            await self._patch(*await asyncio.to_thread(self._statements.override, changed, ended))
+            last = changed[-1]
+            told = {"id": last.id, "environment": last.environment or None,
+                    "operator": last.operator, "undone": last.undone is not None}  # fmt: skip
+            self.events.publish(record.revision, {"segment": segment, "override": told})
+            return changed
 
     async def remove(self) -> None:
         """Take the map out of the store and the records; what waits for it is refused.

@@ -107,16 +107,17 @@ class Statements:
         self._terms |= new
         return new
 
-    def override(self, override: Override, ended: datetime) -> tuple[str, str]:
-        """An operator's statement, made or taken back: statements to take back and to add."""
-        known = self._overrides.setdefault(override.segment, [])
-        before = [each for each in known if each.id == override.id]
-        removed = [line for each in before for line in self._of_override(each)]
-        removed += self._provenance
-        known[:] = [each for each in known if each.id != override.id] + [override]
+    def override(self, overrides: Sequence[Override], ended: datetime) -> tuple[str, str]:
+        """What operators say now, or take back: statements to take back and to add."""
+        removed, added = set(self._provenance), set[str]()
+        for override in overrides:
+            known = self._overrides.setdefault(override.segment, [])
+            removed.update(line for e in known if e.id == override.id for line in self._of(e))
+            known[:] = [each for each in known if each.id != override.id] + [override]
+            added.update(self._of(override))
         records = Records(Content(self._live.described([])), self._syntax)
-        added = [*self._of_override(override), *self._lineage(records, ended)]
-        return "".join(removed), "".join(added)
+        added |= self._lineage(records, ended)
+        return "".join(removed - added), "".join(added - removed)
 
     def of_segment(self, name: str) -> str:
         """What is stated of a segment now, to be kept with an override of it."""
@@ -170,7 +171,7 @@ class Statements:
     def _about_overrides(self) -> Iterator[str]:
         for segment, overrides in self._overrides.items():
             for override in overrides:
-                yield from self._of_override(override)
+                yield from self._of(override)
             if segment not in self._segments:
                 yield from self._snapshots(segment)
 
@@ -181,7 +182,7 @@ class Statements:
         lines = found[-1].snapshot.splitlines(keepends=True) if found else []
         return frozenset(line.replace(f" {own} .\n", f" {other} .\n") for line in lines)
 
-    def _of_override(self, override: Override) -> list[str]:
+    def _of(self, override: Override) -> list[str]:
         s = self._syntax
         operator = s.own("operator", override.operator)
         stated: Properties = [

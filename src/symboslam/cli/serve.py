@@ -43,7 +43,7 @@ def serve(
         bool, typer.Option("--read-only", help="Let nobody write, whatever their token says.")
     ] = False,
 ) -> None:  # fmt: skip
-    """Serve SPARQL over HTTP until Ctrl-C.
+    """Serve maps that are fed live, and SPARQL, over HTTP until Ctrl-C.
 
     Reading is free; writing needs a token: the one in SYMBOSLAM_ADMIN_TOKEN, or one of
     [bold]symboslam token add[/]. Where there is no administrator's token yet, one is made and
