@@ -63,6 +63,10 @@ class Jobs:
         for left in folder.iterdir():
             left.unlink()
 
+    def all(self) -> list[Job]:
+        """The last jobs, the oldest first."""
+        return list(self._jobs.values())
+
     def find(self, identifier: str) -> Job | None:
         """A job, or None."""
         return self._jobs.get(identifier)
@@ -182,6 +186,12 @@ async def start_job(
     job = jobs.start(file, name, wanted, format, crs, _box(bbox))
     response.headers["Location"] = f"/v1/jobs/{job.info.id}"
     return job.info
+
+
+@router.get("", summary="The last jobs")
+async def list_jobs(jobs: CurrentJobs, _: CanQuery) -> list[JobInfo]:
+    """The jobs since the service was started, the oldest first; of very many the last ones."""
+    return [job.info for job in jobs.all()]
 
 
 @router.get("/{job_id}", summary="How far is it?")

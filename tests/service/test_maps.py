@@ -330,6 +330,10 @@ def test_a_job_makes_a_map_of_a_file(shared: Service, town: dict[str, Any]) -> N
         bad = shared.client.get(f"/v1/jobs/{bad['id']}").json()
     assert bad["state"] == "failed"
     assert "not valid JSON" in bad["problem"]
+    listed = shared.client.get("/v1/jobs").json()
+    assert [(each["id"], each["state"]) for each in listed[-2:]] == [
+        (job["id"], "done"), (bad["id"], "failed")
+    ]  # fmt: skip
 
 
 def test_events(shared: Service) -> None:

@@ -187,7 +187,7 @@ def schemathesis(service: Service, folder: Path, examples: int, token: bool) -> 
         cwd=ROOT, capture_output=True, text=True, env={**os.environ, "NO_COLOR": "1"}, check=False,
     )  # fmt: skip
     assert found.returncode == 0, found.stdout + found.stderr
-    assert "Operations:       30 selected" in found.stdout, found.stdout
+    assert "Operations:       31 selected" in found.stdout, found.stdout
     assert "FAILURES" not in found.stdout
     assert service.client.get("/readyz").status_code == 200
 
