@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 
 import numpy as np
 import shapely
@@ -115,8 +116,8 @@ def pair_of(
     if missing:
         notes.append(f"{found.source}: its scheme lacks {', '.join(missing)}, which the truth has")
     return Pair(
-        truth_source=truth.source,
-        map_source=found.source,
+        truth_source=_short(truth.source),
+        map_source=_short(found.source),
         system=truth.system.name,
         bbox=box,
         cells=side,
@@ -193,6 +194,11 @@ def _same(one: CoordinateSystem, other: CoordinateSystem) -> bool:
 
 def _words(system: CoordinateSystem) -> str:
     return "local metres" if system.metric else system.name
+
+
+def _short(source: str) -> str:
+    """A file's name and its folder's, for reports that others get."""
+    return "/".join(part for part in Path(source).parts[-2:] if part != "/")
 
 
 def _check_overlap(found: Places, box: Box, truth: str) -> None:
