@@ -435,3 +435,58 @@ def test_what_is_good_is_still_taken(fed: Service, town: str) -> None:
     result = response.json()
     assert result["received"] == 5
     assert result["left_out"] == {"outside": 1, "unknown": {"FlyingSaucer": 1}}
+# Method, address, what the problem says.
+UNKNOWN_PARAMETERS = [
+    ("POST", "/v1/maps/{town}/observations?agnet=x", "'agnet'; did you mean agent?"),
+    ("POST", "/v1/maps?name=x", "'name'"),
+    ("POST", "/v1/jobs?name=x&format=csv&boxx=1", "'boxx'; did you mean bbox?"),
+    ("POST", "/v1/tokens?name=x", "'name'"),
+    ("GET", "/v1/tokens?limit=1", "'limit'"),
+    ("GET", "/v1/maps?limt=1", "'limt'; did you mean limit?"),
+    ("GET", "/v1/maps?colour=1", "'colour'; there are: limit, offset"),
+    ("GET", "/v1/maps/{town}?x", "'x': this address takes none"),
+    ("GET", "/v1/maps/{town}/landmarks?feature=House", "'feature'"),
+    ("GET", "/v1/maps/{town}/landmarks?klass=House", "'klass'; did you mean class?"),
+    ("GET", "/v1/maps/{town}/events?last_event_id=1", "'last_event_id'"),
+    ("GET", "/v1/maps/{town}/export?fromat=ttl", "'fromat'; did you mean format?"),
+    ("GET", "/v1/examples?example=1", "'example'"),
+    ("POST", "/v1/backup?to=x", "'to'"),
+    ("DELETE", "/v1/maps/{town}?force=true", "'force'"),
+]
+
+
+@pytest.mark.parametrize(("method", "address", "words"), UNKNOWN_PARAMETERS)
+def test_parameters_that_nothing_declares(
+    fed: Service, town: str, method: str, address: str, words: str
+) -> None:
+    before = state(fed)
+    kind = NDJSON if "observations" in address else JSON
+    body = GOOD if kind is NDJSON else json.dumps(AREA).encode()
+    response = fed.client.request(
+        method, address.format(town=town), content=body, headers={**ADMIN, **kind}
+    )
+    refused(response, words)
+    assert response.status_code == 422
+    assert response.json()["parameter"] in words
+    assert state(fed) == before
+
+
+def test_parameters_that_are_repeated_or_no_text(fed: Service, town: str) -> None:
+    refused(fed.client.get("/v1/maps?limit=1&limit=2"), "'limit'", "2 times")
+    refused(fed.client.get(f"/v1/maps/{town}/landmarks?class=%ff"), "UTF-8")
+
+
+def test_parameters_that_are_declared_are_taken(fed: Service, town: str) -> None:
+    for address in (
+        "landmarks?class=House&limit=5&offset=0", "segments?reasons=2", "export?format=ttl",
+        "export?format=html&reasons=1",
+    ):  # fmt: skip
+        assert fed.client.get(f"/v1/maps/{town}/{address}").status_code == 200, address
+    assert fed.client.get("/v1/maps?limit=1&offset=0").status_code == 200
+    assert fed.client.get("/query?query=ASK%7B%7D&example=maps").status_code == 200
+    with fed.client.stream("GET", f"/v1/maps/{town}/events", headers={"Last-Event-ID": "0"}) as it:
+        assert it.status_code == 200
+        assert it.headers["content-type"].startswith("text/event-stream")
+        assert next(it.iter_lines()).startswith(("event:", "id:", "data:", ":"))
+
+
