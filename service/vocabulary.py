@@ -73,6 +73,7 @@ MULTIPART = "multipart/form-data"
 PROBLEM_JSON = "application/problem+json"
 TURTLE = "text/turtle"
 N_TRIPLES = "application/n-triples"
+JSON = "application/json"
 GEOJSON = "application/geo+json"
 NDJSON = "application/x-ndjson"
 

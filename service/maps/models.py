@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from symboslam.service.maps.openapi import TEXT
 
-_STRICT = ConfigDict(extra="forbid")
+_STRICT = ConfigDict(extra="forbid", strict=True)
 Length = Literal["line", "paragraph", "full"]
 
 
