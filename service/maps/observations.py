@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Any
@@ -16,6 +18,8 @@ from symboslam.reasoning.knowledge import Knowledge
 from symboslam.service.json_body import JSONError, RepeatedMemberError, parse_text, unique
 from symboslam.service.vocabulary import NDJSON
 
+_SHOWN = 5
+"""Ids that a note names."""
 _MEMBERS = ("class", "tags", "confidence", "time", "agent")
 
 
@@ -136,6 +140,45 @@ def _check_agents(document: Any, place_of: geojson.Place) -> None:
         if agent is not None and not isinstance(agent, str):
             problem = f"its agent is {str(agent)[:60]}, not text"
             raise LandmarkError(problem, source="body", where=place_of(row))
+
+
+def notes_on_ids(landmarks: Iterable[tuple[Landmark, str]], radius: float) -> list[str]:
+    """What is odd about the ids of a batch.
+
+    Args:
+        landmarks: as in `Observations`.
+        radius: in metres; the same id twice is of one place within it.
+
+    >>> notes_on_ids([(Landmark("", 0, 1.0, 2.0, 1.0), "h1")], 5.0)
+    ['an id does not say which landmark it is without an agent; name the agent of h1']
+    """
+    first: dict[tuple[str, str], Landmark] = {}
+    unowned: dict[str, None] = {}
+    apart: dict[str, None] = {}
+    for seen, name in landmarks:
+        if not name:
+            continue
+        if not seen.agent:
+            unowned[name] = None
+            continue
+        earlier = first.setdefault((seen.agent, name), seen)
+        distance = math.hypot(seen.x - earlier.x, seen.y - earlier.y)
+        if earlier.feature != seen.feature or distance > radius:
+            apart[f"{name} of {seen.agent}"] = None
+    notes = []
+    if unowned:
+        problem = "an id does not say which landmark it is without an agent; name the agent of"
+        notes.append(f"{problem} {_listed(unowned)}")
+    if apart:
+        problem = f"different classes, or places farther than {radius:g} m apart"
+        notes.append(f"in one batch there are {problem}, under the same id: {_listed(apart)}")
+    return notes
+
+
+def _listed(names: Mapping[str, None]) -> str:
+    """The first of many ids, and how many more there are."""
+    more = len(names) - _SHOWN
+    return ", ".join(list(names)[:_SHOWN]) + (f" and {more} more" if more > 0 else "")
 
 
 def check_agent(name: str | None) -> str | None:

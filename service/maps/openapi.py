@@ -40,7 +40,8 @@ _COORDINATES = {
 }
 _ID = {
     **_NAME, "minLength": 1,
-    "description": "What the agent calls the landmark; the same again is the same landmark.",
+    "description": "What the agent calls the landmark; the same again of the same agent is the same"
+    " landmark. Without an agent it is of no account.",
 }  # fmt: skip
 _CLASS_OR_TAGS = [{"required": ["class"]}, {"required": ["tags"]}]
 _LINE = {
