@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from itertools import chain
 from typing import Any
 
 from symboslam.service.openapi import also
-from symboslam.service.vocabulary import GEOJSON, NDJSON, TURTLE
+from symboslam.service.vocabulary import ANY_FILE, FILES, GEOJSON, NDJSON, OCTETS, TURTLE
 
 TEXT = r"^[^\u0000-\u001f\u007f\ufffe\uffff]*$"
 """Pattern of a text in one line without control characters."""
@@ -118,9 +119,8 @@ FILE: dict[str, Any] = {
         "requestBody": {
             "required": True,
             "content": {
-                "application/octet-stream": {
-                    "schema": {"type": "string", "format": "binary", "minLength": 1}
-                }
+                OCTETS: {"schema": {"type": "string", "format": "binary", "minLength": 1}},
+                **{kind: {"schema": {}} for kind in (*ANY_FILE[1:], *chain(*FILES.values()))},
             },
         }
     },

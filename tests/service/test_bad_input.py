@@ -547,6 +547,42 @@ def test_files(fed: Service, parameters: dict[str, str], body: bytes, word: str)
 
 
 @pytest.mark.parametrize(
+    ("format", "kind"),
+    [
+        ("geojson", "text/csv"), ("csv", "application/geo+json"), ("osm", "application/json"),
+        ("csv", "application/x-www-form-urlencoded"), ("csv", "text/plain"),
+        ("geojson", "multipart/form-data; boundary=x"), ("csv", "text/csv; charset=latin-1"),
+    ],
+)  # fmt: skip
+def test_files_that_are_called_something_else(fed: Service, format: str, kind: str) -> None:
+    before = state(fed)
+    response = fed.client.post(
+        "/v1/jobs", params={"name": "a", "format": format}, content=b"class,x,y\n",
+        headers={**ADMIN, "Content-Type": kind},
+    )  # fmt: skip
+    refused(response, "latin-1" if "latin" in kind else "application/octet-stream")
+    assert response.status_code == 415
+    assert state(fed) == before
+
+
+@pytest.mark.parametrize(
+    "kind", [None, "application/octet-stream", "text/csv", "Text/CSV; charset=UTF-8"]
+)
+def test_files_that_are_called_what_they_are(fed: Service, kind: str | None) -> None:
+    headers = ADMIN if kind is None else {**ADMIN, "Content-Type": kind}
+    response = fed.client.post(
+        "/v1/jobs", params={"name": "good.csv", "format": "csv"},
+        content=b"class,lon,lat\nHouse,149.1,-35.2\nHouse,149.11,-35.21\n", headers=headers,
+    )  # fmt: skip
+    assert response.status_code == 202, response.text
+    job = response.json()
+    while job["state"] == "running":
+        job = fed.client.get(f"/v1/jobs/{job['id']}").json()
+    assert job["state"] == "done", job
+    assert fed.client.delete(f"/v1/maps/{job['map']}", headers=ADMIN).status_code == 204
+
+
+@pytest.mark.parametrize(
     ("format", "body"),
     [
         ("csv", b"GIF89a\0\0"), ("csv", b"class,x,y\nHouse,nan,1"), ("geojson", b"[" * 100_000),
