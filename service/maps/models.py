@@ -91,7 +91,10 @@ class MapInfo(BaseModel):
     id: str
     name: str
     iri: str = Field(description="IRI of the map, the base of its graphs and of all that is in it.")
-    bbox: list[float]
+    bbox: list[float] = Field(
+        description="As it was sent; else, or where it was sent in another system than `crs`, the"
+        " box around the map."
+    )
     crs: str
     created: datetime
     changed: datetime

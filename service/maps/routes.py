@@ -15,7 +15,7 @@ from fastapi.sse import EventSourceResponse, ServerSentEvent
 
 from symboslam.engine.landmarks import LandmarkMap
 from symboslam.engine.readers.area import area_of, parse_box, parse_surveyed
-from symboslam.engine.readers.crs import DEGREES, canonical, coordinate_system
+from symboslam.engine.readers.crs import DEGREES, METRES, canonical, coordinate_system
 from symboslam.engine.writers.content import Content
 from symboslam.errors import InputError, UnknownNameError
 from symboslam.service.auth import AdminOnly, CanIngest, CanQuery
@@ -66,7 +66,7 @@ async def create_map(
     """Make an empty map of an area, to be fed with observations."""
     try:
         area = await asyncio.to_thread(_area, wanted)
-        options = await options_of(wanted, maps)
+        options = await options_of(wanted, maps) | {"bbox": _box(wanted)}
         running = await maps.create(wanted.name, area, options)
     except InputError as error:
         raise Problem(422, "invalid-map", str(error)) from error
@@ -97,6 +97,12 @@ def _area(wanted: MapRequest) -> LandmarkMap:
     surveyed = parse_surveyed(wanted.surveyed, system, "surveyed")
     found = area_of(box, system, given=True, surveyed=surveyed, source="bbox")
     return empty_map(found.frame, found.bbox, found.surveyed)
+
+
+def _box(wanted: MapRequest) -> list[float] | None:
+    """The box as it was sent, where that is in the coordinates of the map."""
+    plain = canonical(wanted.crs or DEGREES) in (DEGREES, METRES)
+    return wanted.bbox if plain else None
 
 
 @router.get("", summary="All maps")
@@ -197,7 +203,7 @@ async def info(running: RunningMap, maps: Maps) -> MapInfo:
         id=record.id,
         name=record.name,
         iri=f"{base_of(record.id)}map",
-        bbox=list(content.bbox),
+        bbox=record.options.get("bbox") or list(content.bbox),
         crs=running.live.area.frame.name,
         created=datetime.fromisoformat(record.created),
         changed=datetime.fromisoformat(record.changed),

@@ -124,6 +124,34 @@ def test_a_map_is_made_and_removed(shared: Service) -> None:
         assert shared.client.get("/graphs", params={"graph": base + name}).status_code == 404
 
 
+@pytest.mark.parametrize(
+    ("bbox", "crs"),
+    [
+        ([1, 1, 2, 2], None), ([149.1, -35.3, 149.2, -35.2], "EPSG:4326"), ([0, 5, 600, 700], "m"),
+        ([149.1, -35.3, 0, 149.2, -35.2, 9], "OGC:CRS84"),
+    ],
+)  # fmt: skip
+def test_the_box_comes_back_as_it_was_sent(
+    shared: Service, bbox: list[float], crs: str | None
+) -> None:
+    identifier = make(shared, bbox=bbox, crs=crs)
+    assert get(shared, identifier)["bbox"] == bbox
+    assert [each["bbox"] for each in get(shared, "") if each["id"] == identifier] == [bbox]
+    export = get(shared, f"{identifier}/export")
+    west, south, *_, east, north = export["bbox"]
+    assert west <= bbox[0] < bbox[len(bbox) // 2] <= east
+    assert south <= bbox[1] < bbox[len(bbox) // 2 + 1] <= north
+
+
+def test_a_box_in_another_system_comes_back_in_that_of_the_map(shared: Service) -> None:
+    identifier = make(shared, bbox=[692_000, 6_096_000, 694_000, 6_098_000], crs="EPSG:32755")
+    info = get(shared, identifier)
+    assert info["crs"] == "OGC:CRS84"
+    west, south, east, north = info["bbox"]
+    assert 149.1 < west < east < 149.14
+    assert -35.28 < south < north < -35.24
+
+
 def test_observations_become_landmarks(shared: Service) -> None:
     identifier = make(shared)
     first = send(
