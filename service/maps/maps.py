@@ -167,7 +167,8 @@ class Maps:
             name: what people call it.
             area: frame, box, surveyed area and report.
             options: ``ontology``, ``profile``, ``scheme``, ``settings``, ``merge_radius``,
-                ``reasons``, ``source``, ``attribution``.
+                ``reasons``; and, if there are any, ``bbox`` (as it was sent), ``source``,
+                ``attribution``.
             identifier: its id; a new one by default.
 
         Raises:

@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from symboslam.service.maps.openapi import TEXT
 
-_STRICT = ConfigDict(extra="forbid")
+_STRICT = ConfigDict(extra="forbid", strict=True)
 Length = Literal["line", "paragraph", "full"]
 
 
@@ -91,7 +91,10 @@ class MapInfo(BaseModel):
     id: str
     name: str
     iri: str = Field(description="IRI of the map, the base of its graphs and of all that is in it.")
-    bbox: list[float]
+    bbox: list[float] = Field(
+        description="As it was sent; else, or where it was sent in another system than `crs`, the"
+        " box around the map."
+    )
     crs: str
     created: datetime
     changed: datetime

@@ -23,7 +23,7 @@ from symboslam.engine.live import Change, LiveMap
 from symboslam.engine.sightings import Name, Sightings
 from symboslam.reasoning.knowledge import Knowledge
 from symboslam.service.maps.events import Events
-from symboslam.service.maps.observations import Observations
+from symboslam.service.maps.observations import Observations, notes_on_ids
 from symboslam.service.maps.records import MapRecord, Override, Records
 from symboslam.service.maps.statements import GRAPHS, Statements
 from symboslam.service.metrics import Metrics
@@ -262,8 +262,8 @@ class RunningMap:
         for seen, name in found.landmarks:
             landmark = self._sightings.observe(seen, name)
             new += landmark.count == 1
-            if name:
-                names[seen.agent or "", name] = landmark.id
+            if name and seen.agent:
+                names[seen.agent, name] = landmark.id
         add_left_out(record.left_out, found.report)
         return {
             "batch": batch.id,
@@ -274,7 +274,10 @@ class RunningMap:
                 "outside": found.report.outside,
                 "unknown": dict(found.report.unknown.most_common(_MOST_UNKNOWN)),
             },
-            "notes": list(found.report.notes),
+            "notes": [
+                *found.report.notes,
+                *notes_on_ids(found.landmarks, record.options["merge_radius"]),
+            ],
             "revision": record.revision,
         }
 

@@ -17,6 +17,7 @@ from symboslam.engine.writers.geojson import to_geojson
 from symboslam.engine.writers.options import reasons_wanted
 from symboslam.errors import UnknownNameError
 from symboslam.service.auth import CanQuery, CanUpdate
+from symboslam.service.json_body import JSONRoute
 from symboslam.service.maps import openapi
 from symboslam.service.maps.explaining import text_of
 from symboslam.service.maps.maps import base_of
@@ -33,7 +34,7 @@ from symboslam.service.maps.running import RunningMap
 from symboslam.service.problems import Problem
 from symboslam.service.vocabulary import GEOJSON
 
-router = APIRouter(prefix="/v1/maps/{map_id}", tags=["Maps"])
+router = APIRouter(prefix="/v1/maps/{map_id}", tags=["Maps"], route_class=JSONRoute)
 _TYPES = {
     "geojson": GEOJSON,
     "ttl": "text/turtle; charset=utf-8",

@@ -16,7 +16,7 @@ import pytest
 from typer.testing import CliRunner
 
 from symboslam.cli.main import app
-from symboslam.errors import InputError, StoreError
+from symboslam.errors import InputError, OutputError, StoreError
 from symboslam.service.backup import back_up, restore, verify
 from symboslam.service.checking import differing
 from tests.service.conftest import ADMIN, TOKEN, MakeService, Service, running
@@ -72,7 +72,7 @@ def fill(service: Service) -> str:
 def symboslam(*arguments: object, **environment: str) -> tuple[int, str]:
     """Exit code and output of the command."""
     result = CliRunner().invoke(app, [str(a) for a in arguments], env=environment)
-    if isinstance(result.exception, InputError | StoreError):
+    if isinstance(result.exception, InputError | OutputError | StoreError):
         return 2, str(result.exception)
     assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
     return result.exit_code, result.output
@@ -201,6 +201,45 @@ def filled(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("filled") / "data"
     open_again(folder, fill)
     return folder
+
+
+def test_a_backup_overwrites_nothing(make_service: MakeService, tmp_path: Path) -> None:
+    service = make_service(data=tmp_path / "running")
+    open_again(tmp_path / "data", lambda _: None)
+    sources: list[list[object]] = [[tmp_path / "data"], ["--url", service.url]]
+    for number, what in enumerate(sources):
+        folder = tmp_path / f"new{number}" / "deep"
+        command = ["store", "backup", *what, "--to"]
+        code, text = symboslam(*command, f"{folder}/", SYMBOSLAM_TOKEN=TOKEN)
+        assert code == 0, text
+        (file,) = folder.iterdir()
+        assert file.name.startswith("symboslam-")
+        verify(file, quiet)
+        before = file.read_bytes()
+        code, text = symboslam(*command, file, SYMBOSLAM_TOKEN=TOKEN)
+        assert code == 2
+        assert f"{file} is there already" in text
+        code, text = symboslam(*command, f"{file}/", SYMBOSLAM_TOKEN=TOKEN)
+        assert (code, "cannot be made: File exists" in text) == (2, True), text
+        assert [each.name for each in folder.iterdir()] == [file.name]
+        assert file.read_bytes() == before
+
+
+def test_a_file_that_came_while_a_backup_was_made(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    open_again(tmp_path / "data", lambda _: None)
+    file = tmp_path / "b.tar.gz"
+
+    def came(*arguments: Any) -> Any:
+        file.write_text("another's")
+        return verify(*arguments)
+
+    monkeypatch.setattr("symboslam.service.backup.verify", came)
+    code, text = symboslam("store", "backup", tmp_path / "data", "--to", file)
+    assert (code, "is there already" in text) == (2, True), text
+    assert file.read_text() == "another's"
+    assert sorted(each.name for each in tmp_path.iterdir()) == ["b.tar.gz", "data"]
 
 
 @pytest.fixture

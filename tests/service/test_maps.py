@@ -124,6 +124,34 @@ def test_a_map_is_made_and_removed(shared: Service) -> None:
         assert shared.client.get("/graphs", params={"graph": base + name}).status_code == 404
 
 
+@pytest.mark.parametrize(
+    ("bbox", "crs"),
+    [
+        ([1, 1, 2, 2], None), ([149.1, -35.3, 149.2, -35.2], "EPSG:4326"), ([0, 5, 600, 700], "m"),
+        ([149.1, -35.3, 0, 149.2, -35.2, 9], "OGC:CRS84"),
+    ],
+)  # fmt: skip
+def test_the_box_comes_back_as_it_was_sent(
+    shared: Service, bbox: list[float], crs: str | None
+) -> None:
+    identifier = make(shared, bbox=bbox, crs=crs)
+    assert get(shared, identifier)["bbox"] == bbox
+    assert [each["bbox"] for each in get(shared, "") if each["id"] == identifier] == [bbox]
+    export = get(shared, f"{identifier}/export")
+    west, south, *_, east, north = export["bbox"]
+    assert west <= bbox[0] < bbox[len(bbox) // 2] <= east
+    assert south <= bbox[1] < bbox[len(bbox) // 2 + 1] <= north
+
+
+def test_a_box_in_another_system_comes_back_in_that_of_the_map(shared: Service) -> None:
+    identifier = make(shared, bbox=[692_000, 6_096_000, 694_000, 6_098_000], crs="EPSG:32755")
+    info = get(shared, identifier)
+    assert info["crs"] == "OGC:CRS84"
+    west, south, east, north = info["bbox"]
+    assert 149.1 < west < east < 149.14
+    assert -35.28 < south < north < -35.24
+
+
 def test_observations_become_landmarks(shared: Service) -> None:
     identifier = make(shared)
     first = send(
@@ -139,6 +167,43 @@ def test_observations_become_landmarks(shared: Service) -> None:
     assert landmarks[0]["geometry"]["coordinates"] == [101.333, 100]
     assert landmarks[0]["properties"]["agent"] == "r2"
     assert get(shared, identifier)["left_out"] == {"unknown Nonsense": 1, "outside": 1}
+
+
+def test_ids_are_those_of_an_agent(shared: Service) -> None:
+    identifier = make(shared, bbox=[0, 0, 2000, 2000])
+    for x in (100, 1100):
+        result = send(shared, identifier, at("House", x, 100, id="1")).json()
+        assert (result["new"], result["merged"]) == (1, 0)
+        assert result["notes"] == [
+            "an id does not say which landmark it is without an agent; name the agent of 1"
+        ]
+    landmarks = get(shared, f"{identifier}/landmarks")["features"]
+    assert [f["geometry"]["coordinates"] for f in landmarks] == [[100, 100], [1100, 100]]
+    assert [f["id"] for f in landmarks] == ["1", "L1"]
+    both = [at("House", 102, 100, id="2"), at("House", 1102, 100, id="3", agent="r2")]
+    mine = send(shared, identifier, *both, agent="r1").json()
+    assert (mine["new"], mine["merged"], mine["notes"]) == (0, 2, [])
+    moved = send(shared, identifier, at("House", 1104, 100, id="2"), agent="r1").json()
+    assert moved["merged"] == 1
+    landmarks = get(shared, f"{identifier}/landmarks")["features"]
+    assert [f["properties"]["observations"] for f in landmarks] == [3, 2]
+
+
+def test_ids_of_two_things_in_a_batch_are_told(shared: Service) -> None:
+    batch = [
+        at("House", 100, 100, id="near"), at("House", 104, 103, id="near"),  # 5 m
+        at("House", 200, 100, id="far"), at("House", 204, 103.1, id="far"),
+        at("House", 300, 100, id="kind"), at("Tree", 300, 100, id="kind"),
+        at("House", 400, 100, id="theirs"), at("House", 400, 500, id="theirs", agent="r2"),
+    ]  # fmt: skip
+    notes = send(shared, make(shared), *batch, agent="r1").json()["notes"]
+    assert notes == [
+        "in one batch there are different classes, or places farther than 5 m apart, under the"
+        " same id: far of r1, kind of r1"
+    ]
+    many = [at("House", 100 + 9 * i, y, id=str(i)) for i in range(7) for y in (100, 200)]
+    notes = send(shared, make(shared), *many, agent="r1").json()["notes"]
+    assert notes[0].endswith("0 of r1, 1 of r1, 2 of r1, 3 of r1, 4 of r1 and 2 more")
 
 
 def test_a_batch_is_taken_once(shared: Service) -> None:

@@ -21,7 +21,8 @@ LANDMARKS = "\n".join(
 )
 # Where a schema cannot say all, valid data may be refused: the grammar of SPARQL and of the graph
 # formats, the order of a box, names of coordinate systems and ontologies, times to come, names
-# that print, features and environments that are known, parameters for queries or updates only.
+# that print, features and environments that are known, parameters for queries or updates only,
+# media types that agree with a parameter, files with nothing in them.
 NOT_ALL_SAID = {
     "GET /sparql": "400",
     "POST /sparql": "400",
@@ -29,6 +30,7 @@ NOT_ALL_SAID = {
     "POST /graphs": "400, 415",
     "POST /v1/maps": "422",
     "POST /v1/tokens": "422",
+    "POST /v1/jobs": "415, 422",
     "POST /v1/maps/{map_id}/observations": "422",
     "GET /v1/maps/{map_id}/landmarks": "422",
     "GET /v1/maps/{map_id}/segments/{segment}/explanation": "422",

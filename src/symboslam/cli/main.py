@@ -32,7 +32,8 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
     help="Tell what kind of place each part of a map is, and why.",
-    epilog="Exit codes: 0 done, 1 findings, 2 bad input, 3 internal error.",
+    epilog="Exit codes: 0 done, 1 findings, 2 bad input, "
+    "3 a service or the reasoner is out of reach or has failed, or an internal error.",
 )
 app.command("classify", epilog=classify.EXAMPLES)(classify.classify)
 app.command("explain", epilog=explain.EXAMPLES)(explain.explain)
