@@ -43,10 +43,10 @@ demo: $(STAMP) ## make a sample town, classify it, write an explained map
 	  --out demo/map.png
 	echo "Open in a browser: $$(pwd)/demo/map.html"
 
-test: $(STAMP) ## run the tests (some minutes)
-	@$(PY) -m pytest -n 2 --dist loadfile -m "not slow and not network"
+test: $(STAMP) ## run the tests (some minutes), but for the proofs
+	@$(PY) -m pytest -n 2 --dist loadfile -m "not slow and not network and not proof and not robot"
 
-test-slow: $(STAMP) ## run the long tests as well
+test-slow: $(STAMP) ## run all tests, the long ones at full length, and the proofs
 	@$(PY) -m pytest -m "not network"
 
 lint: $(STAMP) ## ruff, its formatter as a check, and mypy --strict
@@ -81,8 +81,8 @@ results: $(STAMP) ## score against the benchmark in $(BENCHMARK), write docs/res
 picture: demo ## take the picture in the README anew (needs Chromium)
 	@scripts/readme-picture
 
-proofs: $(STAMP) ## prove the ontology sound (needs Java; with Maven ROBOT checks it as well)
-	@$(PY) -m pytest $$(grep -rl --include='test_*.py' 'mark\.robot' tests)
+proofs: $(STAMP) ## prove the ontology sound, by reasoners (needs Java; with Maven ROBOT checks it as well)
+	@$(PY) -m pytest -n 2 --dist loadfile -m "proof or robot"
 
 acceptance: $(STAMP) ## ask the ontology all questions, write build/acceptance/report.html (needs Java)
 	@$(PY) -m robot --outputdir build/acceptance --console dotted competency_questions/acceptance.robot

@@ -9,6 +9,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from bench import cases
+from bench.evaluation import evaluation
 from bench.explanations import explanations
 from bench.ingest import ingest
 from bench.measure import machine
@@ -33,6 +34,10 @@ CASES: dict[str, tuple[Callable[[], str], Callable[[], str]]] = {
     ),
     "explanations": (lambda: explanations(4000.0, 12), lambda: explanations(1000.0, 60)),
     "start-up": (lambda: cases.start_up(11), lambda: cases.start_up(1)),
+    "evaluation": (
+        lambda: evaluation((24, 200, 800), 3000),
+        lambda: evaluation((6, 12), 20),
+    ),
     "knowledge": (cases.knowledge, cases.knowledge),
     "reasoning": (lambda: reasoning(5), lambda: reasoning(1)),
     "pitfalls": (

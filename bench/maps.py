@@ -103,7 +103,7 @@ async def _make(folder: Path, towns: int, size_m: float) -> None:
             if name == "town":
                 kind = f"https://w3id.org/symboslam#{given}"
                 made = Override(given, place, kind, "Alice", "I was there.", "2026-03-02T12:05:00Z")
-                await running.override(made)
+                await running.override(made.segment, made)
     await found.stop()
     await store.stop()
     with (folder / "maps.nq").open("wb") as file:

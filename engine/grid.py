@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -74,6 +75,14 @@ class Grid:
         row = np.floor((y - south) / height).astype(np.int64)
         last = self.cells - 1
         return np.clip(row, 0, last), np.clip(column, 0, last)
+
+    def cell_of(self, x: float, y: float) -> int:
+        """Row * cells + column of the finest cell of one point, as `finest_of` has them."""
+        west, south, _, _ = self.box
+        width, height = self.step
+        last = self.cells - 1
+        row = min(max(math.floor((y - south) / height), 0), last)
+        return row * self.cells + min(max(math.floor((x - west) / width), 0), last)
 
     def count(self, x: Floats, y: Floats) -> Ints:
         """(cells, cells) points in each finest cell."""

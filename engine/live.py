@@ -104,6 +104,8 @@ class LiveMap:
         if self._estimates:
             self.absence = crowding_share(self._field)
         self._settings = replace(settings, bandwidth=bandwidth, absence=self.absence)
+        self._no_evidence = evidence_of(self._like, knowledge, self._scheme, grid, self._settings)
+        """That of a map without landmarks."""
         self._roots: dict[tuple[int, int], Segments] = {}
         self._pairs = LivePairs(grid, proximity) if settings.evidence == "pairs" else None
         self.table = LandmarkTable(knowledge, grid, np.unique(width, return_inverse=True)[1])
@@ -154,15 +156,14 @@ class LiveMap:
     def described(self, landmarks: Sequence[Landmark]) -> EnvironmentMap:
         """Some landmarks, as a map without segments."""
         none = Segments(_cells([]), _cells([]), np.zeros((0, len(self._ground))))
-        _, evidence = self._nothing()
-        return self._assembled(none, self.table.landmark_map(landmarks, self._like), evidence)
-
-    def _nothing(self) -> tuple[LandmarkMap, Evidence]:
-        return self._evidence(np.zeros(self._inside.shape, bool))
+        return self._assembled(
+            none, self.table.landmark_map(landmarks, self._like), self._no_evidence
+        )
 
     def segments(self) -> EnvironmentMap:
         """All segments, without the landmarks behind them."""
-        return self._assembled(Segments.joined(list(self._roots.values())), *self._nothing())
+        segments = Segments.joined(list(self._roots.values()))
+        return self._assembled(segments, self._like, self._no_evidence)
 
     def segment(self, name: str) -> EnvironmentMap:
         """One segment as a map, with the landmarks that have a say, and those close to them.

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from symboslam.engine.field import CLOSE, dissimilarity
@@ -80,18 +79,13 @@ class LiveField:
         """Rows of the landmarks that those at some places can contradict, and they themselves."""
         if not self._contradicts:
             return np.zeros(0, np.int64)
-        rows = self._around(x, y)
-        tree = shapely.STRtree(shapely.points(x, y))
-        points = shapely.points(self._table.xy(rows))
-        near, _ = tree.query(points, predicate="dwithin", distance=self._radius)
-        return np.asarray(rows[np.unique(near)])
+        return self._within(np.column_stack([x, y]))
 
     def _contradict(self, rows: Rows) -> None:
         """Work out anew what the landmarks around some rows deny them."""
         if not len(rows):
             return
-        xy = self._table.xy(rows)
-        around = self._around(xy[:, 0], xy[:, 1])
+        around = self._within(self._table.xy(rows))
         weight = self._proximity[self._table.feature(around)]
         weight = weight * self._table.confidence(around)[:, None]
         found = dissimilarity(self._table.xy(around), weight, self._radius)
@@ -100,9 +94,16 @@ class LiveField:
             self._denied = np.pad(self._denied, ((0, max(missing, len(self._denied))), (0, 0)))
         self._denied[rows] = found[np.searchsorted(around, rows)]
 
-    def _around(self, x: Floats, y: Floats) -> Rows:
-        """Rows of the landmarks in cells that come within the radius of the cells of places."""
+    def _within(self, places: Floats) -> Rows:
+        """Rows of the landmarks within the radius of any of (m, 2) places."""
+        from scipy.spatial import cKDTree
+
         cells = np.zeros((self._grid.cells, self._grid.cells), bool)
-        cells[self._grid.finest_of(x, y)] = True
+        cells[self._grid.finest_of(*places.T)] = True
         wide = grown(self._grid, cells, self._radius)
-        return self._table.within(np.flatnonzero(wide).tolist())
+        rows = self._table.within(np.flatnonzero(wide).tolist())
+        # An infinite distance is that to none; the radius itself belongs to the disc.
+        nearest, _ = cKDTree(places).query(
+            self._table.xy(rows), distance_upper_bound=np.nextafter(self._radius, np.inf)
+        )
+        return np.asarray(rows[np.isfinite(nearest)])

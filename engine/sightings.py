@@ -1,9 +1,10 @@
 """Sightings: observations of a running map, merged into landmarks by class and distance.
 
-An observation whose sender gave it an id belongs to the landmark that the sender has called so
+An observation that an agent gave an id belongs to the landmark that this agent has called so
 before, if that is of the same class; any other belongs to the nearest landmark of its class within
-the radius. A landmark lies at the mean of its observations, weighted by their confidence, and has
-the largest of their confidences (design 7). Whole maps of agents are merged elsewhere.
+the radius. An id without an agent says nothing: two that do not know of each other may use it. A
+landmark lies at the mean of its observations, weighted by their confidence, and has the largest of
+their confidences (design 7). Whole maps of agents are merged elsewhere.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from symboslam.engine.table import Landmark, LandmarkTable
 
 _Place = tuple[int, int, int]
 Name = tuple[str, str]
-"""Agent (or an empty text), and the id that it gave."""
+"""Agent, and the id that it gave."""
 
 
 class Sightings:
@@ -46,7 +47,8 @@ class Sightings:
 
         Args:
             seen: the observation as a landmark; its id, count and weight do not matter.
-            name: the id that its agent gave it.
+            name: the id that its agent gave it; without an agent it is no more than a suggestion
+                of what to call a new landmark.
 
         Returns:
             The landmark that it is of, as it is now in the table.
@@ -62,12 +64,12 @@ class Sightings:
             found = merged(known, seen)
         row = self._table.put(found)
         self._near.setdefault(self._place(found), set()).add(row)
-        if name:
-            self.names[seen.agent or "", name] = found.id
+        if name and seen.agent:
+            self.names[seen.agent, name] = found.id
         return found
 
     def _known(self, seen: Landmark, name: str) -> int | None:
-        identifier = self.names.get((seen.agent or "", name)) if name else None
+        identifier = self.names.get((seen.agent, name)) if name and seen.agent else None
         row = None if identifier is None else self._table.row_of(identifier)
         return row if row is not None and self._table[row].feature == seen.feature else None
 
@@ -85,7 +87,7 @@ class Sightings:
 
     def _new_id(self, seen: Landmark, name: str) -> str:
         if name:
-            for identifier in (name, f"{seen.agent}/{name}"):
+            for identifier in (name, *([f"{seen.agent}/{name}"] if seen.agent else [])):
                 if identifier not in self._table:
                     return identifier
         while f"L{self._next}" in self._table:

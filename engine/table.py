@@ -111,8 +111,7 @@ class LandmarkTable:
         self._landmarks[row] = landmark
         self._feature[row] = landmark.feature
         self._numbers[row] = landmark.x, landmark.y, landmark.confidence
-        r, c = self._grid.finest_of(np.array([landmark.x]), np.array([landmark.y]))
-        self._cell[row] = int(r[0]) * self._grid.cells + int(c[0])
+        self._cell[row] = self._grid.cell_of(landmark.x, landmark.y)
         group = self._within[self._group[landmark.feature]]
         group.setdefault(self._cell[row], set()).add(row)
         return row
@@ -182,7 +181,8 @@ class LandmarkTable:
 
     def take(self, rows: Rows, like: LandmarkMap) -> LandmarkMap:
         """Some landmarks as a map with the frame, area and report of another."""
-        return self.landmark_map([self[row] for row in rows.tolist()], like)
+        found = self._landmarks
+        return self.landmark_map([m for row in rows.tolist() if (m := found[row])], like)
 
     def landmark_map(self, landmarks: Sequence[Landmark], like: LandmarkMap) -> LandmarkMap:
         """Landmarks, be they in the table or not, as a map like another."""

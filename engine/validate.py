@@ -81,13 +81,15 @@ def validate_map(map_or_path: Graph | str | Path, shapes: str | Path | None = No
         from pyshacl.errors import ReportableRuntimeError, ShapeLoadError
     except ImportError as error:
         raise MissingExtraError("pyshacl", "shapes") from error
+    from symboslam.engine.asked_often import AskedOften
+
     if isinstance(map_or_path, str | Path):
         graph = read_graph(Path(map_or_path))
     else:
         graph = union_of(map_or_path)
     rules = bundled_shapes() if shapes is None else _read_shapes(Path(shapes))
     try:
-        _, results, _ = validate(graph, shacl_graph=rules, inference="none")
+        _, results, _ = validate(AskedOften(graph), shacl_graph=rules, inference="none")
     except (ReportableRuntimeError, ShapeLoadError) as error:
         raise InputError(f"{shapes or 'the bundled shapes'}: no usable shapes: {error}") from error
     return ShapesReport(tuple(sorted(set(_violations(results, graph)), key=str)))

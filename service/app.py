@@ -7,7 +7,7 @@ import shutil
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
-from fastapi import FastAPI
+from fastapi import Depends, FastAPI
 from starlette.middleware.cors import CORSMiddleware
 from starlette.middleware.gzip import GZipMiddleware
 
@@ -26,6 +26,7 @@ from symboslam.service.maps.maps import Maps
 from symboslam.service.maps.records import Records
 from symboslam.service.middleware import Accounts, Guard
 from symboslam.service.page import routes as page
+from symboslam.service.requests import known_parameters
 from symboslam.service.settings import Settings
 from symboslam.service.sparql import graph_store, protocol
 from symboslam.service.store._base import Store
@@ -120,11 +121,14 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
         )  # fmt: skip
     app.add_middleware(Accounts, metrics=app.state.metrics)
     for router in (
-        health.router, metrics.router, tokens_api.router, protocol.router, graph_store.router,
-        routes.router, segments.router, jobs.router, examples.router, page.router,
-        backup_api.router,
+        health.router, metrics.router, protocol.router, graph_store.router, page.router,
     ):  # fmt: skip
         app.include_router(router)
+    for router in (  # all that is under /v1
+        tokens_api.router, routes.router, segments.router, jobs.router, examples.router,
+        backup_api.router,
+    ):  # fmt: skip
+        app.include_router(router, dependencies=[Depends(known_parameters)])
     return app
 
 

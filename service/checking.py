@@ -184,8 +184,8 @@ async def _look_at(
             found = await _differences(store, identifier, wanted)
         if found:
             report.problems.append(
-                f"{name}: the store does not say what the records say: {found}; a service states"
-                " it anew with the next batch, and --repair does so now"
+                f"{name}: the store does not say what the records say: {found}; state it"
+                " anew with --repair"
             )
         if shapes:
             violations = await _violations(store, identifier, list(wanted))

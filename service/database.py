@@ -37,16 +37,36 @@ def check_database(data: Path) -> None:
         raise StoreError(f"{file} is damaged, and was left as it is: {rows[0][0]}{_MEND}")
 
 
+def make_folder(data: Path) -> None:
+    """Make a data folder if it is not there.
+
+    Raises:
+        StoreError: it cannot be made; says why.
+    """
+    try:
+        data.mkdir(parents=True, exist_ok=True)
+    except FileExistsError as error:
+        raise StoreError(f"{data} is no folder; take another --data") from error
+    except OSError as error:
+        there = next((folder for folder in data.absolute().parents if folder.exists()), Path("/"))
+        # Linux says of a folder that takes none, such as /proc, that it is not there itself.
+        lost = isinstance(error, FileNotFoundError)
+        problem = "it takes no new folders" if lost else error.strerror or error
+        raise StoreError(
+            f"the folder {data} cannot be made in {there}: {problem}; take another --data"
+        ) from error
+
+
 def lock_folder(data: Path) -> IO[bytes]:
     """Keep other servers out of a data folder until the file is closed or the process ends.
 
     Raises:
-        StoreError: there is another one.
+        StoreError: there is another one, or the folder cannot be made.
     """
     import fcntl
 
+    make_folder(data)
     try:
-        data.mkdir(parents=True, exist_ok=True)
         file = (data / _LOCK).open("ab")
     except OSError as error:
         raise StoreError(f"{data / _LOCK} cannot be opened: {error}") from error
@@ -69,8 +89,8 @@ def open_database(data: Path) -> sqlite3.Connection:
     Raises:
         StoreError: the folder or file cannot be made or opened.
     """
+    make_folder(data)
     try:
-        data.mkdir(parents=True, exist_ok=True)
         found = sqlite3.connect(
             data / NAME, timeout=10, isolation_level=None, check_same_thread=False
         )

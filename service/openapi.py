@@ -55,7 +55,7 @@ _DETAILS = {
     404: "It is not there.",
     406: "None of the formats that are accepted can be given.",
     408: "The body did not arrive in time.",
-    409: "Something else was taken under this name before.",
+    409: "Something else was taken under this name before, or keeps it.",
     413: "The body is too large.",
     415: "The media type, character encoding or compression is not understood.",
     422: "Well-formed, and yet not possible; says what is wrong and where.",
@@ -122,7 +122,7 @@ def _complete(document: dict[str, Any], public_read: bool) -> None:
                 operation["security"].insert(0, {})
             for parameter in operation.get("parameters", []):
                 _without_null(parameter)
-            _responses(operation, has_name="{" in path)
+            _responses(operation, has_name="{" in path, versioned=path.startswith("/v1/"))
     _link(document["paths"])
 
 
@@ -150,7 +150,7 @@ def _link(paths: dict[str, Any]) -> None:
         paths[made]["post"]["responses"]["201"]["links"] = links
 
 
-def _responses(operation: dict[str, Any], *, has_name: bool) -> None:
+def _responses(operation: dict[str, Any], *, has_name: bool, versioned: bool) -> None:
     responses = operation["responses"]
     if PROBLEM_JSON not in responses.get("422", {}).get("content", {PROBLEM_JSON: None}):
         del responses["422"]  # the framework's own form
@@ -159,6 +159,8 @@ def _responses(operation: dict[str, Any], *, has_name: bool) -> None:
         statuses |= set(_AUTHORISED)
     if has_name:
         statuses.add(404)
+    if versioned:  # no parameter but those that are declared, and each once
+        statuses |= {400, 422}
     if operation.get("parameters"):
         statuses.add(422)
     if "requestBody" in operation:

@@ -9,8 +9,10 @@ from pathlib import Path
 from urllib.parse import unquote_to_bytes
 
 from fastapi import Request
+from fastapi.dependencies.models import Dependant
 
 from symboslam.errors import StoreError
+from symboslam.reasoning.matching import unknown_name
 from symboslam.service.problems import Problem
 from symboslam.service.settings import Settings
 
@@ -39,6 +41,11 @@ class Parameters:
 
     def __contains__(self, name: object) -> bool:
         return any(name == key for key, _ in self._pairs)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Each name once, in the order of their first use."""
+        return tuple(dict.fromkeys(name for name, _ in self._pairs))
 
     def all(self, name: str) -> tuple[str, ...]:
         """All values of a parameter."""
@@ -95,6 +102,29 @@ def absolute_iri(text: str, parameter: str) -> str:
 def url_parameters(request: Request) -> Parameters:
     """The parameters in the address of a request."""
     return Parameters(request.scope["query_string"])
+
+
+async def known_parameters(request: Request) -> None:
+    """A dependency of routers: the address has no parameter but those that its route declares.
+
+    Raises:
+        Problem: 422 where it has another one; 400 where one is repeated or not UTF-8.
+    """
+    known = sorted(_query_names(request.scope["route"].dependant))
+    sent = url_parameters(request)
+    for name in sent.names:
+        if name not in known:
+            hint = str(unknown_name("parameter", name[:80], known)) if known else (
+                f"there is no parameter {name[:80]!r}: this address takes none"
+            )  # fmt: skip
+            raise Problem(422, "unknown-parameter", hint, parameter=name[:80])
+        sent.find(name)
+
+
+def _query_names(dependant: Dependant) -> set[str]:
+    """The parameters in the address that a route and what it depends on declare."""
+    found = {field.alias for field in dependant.query_params}
+    return found.union(*map(_query_names, dependant.dependencies))
 
 
 def media_type(header: str | None) -> tuple[str, Message]:

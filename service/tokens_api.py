@@ -11,10 +11,11 @@ from pydantic import AwareDatetime, BaseModel, ConfigDict, Field
 
 from symboslam.errors import InputError
 from symboslam.service.auth import AdminOnly
+from symboslam.service.json_body import JSONRoute
 from symboslam.service.problems import Problem
 from symboslam.service.tokens import LONGEST_NAME, SCOPES, Token, Tokens
 
-router = APIRouter(prefix="/v1/tokens", tags=["Tokens"])
+router = APIRouter(prefix="/v1/tokens", tags=["Tokens"], route_class=JSONRoute)
 Scope = Literal["query", "ingest", "update", "admin"]
 
 

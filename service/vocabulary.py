@@ -73,8 +73,18 @@ MULTIPART = "multipart/form-data"
 PROBLEM_JSON = "application/problem+json"
 TURTLE = "text/turtle"
 N_TRIPLES = "application/n-triples"
+JSON = "application/json"
+OCTETS = "application/octet-stream"
 GEOJSON = "application/geo+json"
 NDJSON = "application/x-ndjson"
+FILES = {
+    "geojson": (GEOJSON, JSON),
+    "csv": ("text/csv",),
+    "osm": ("application/xml", "text/xml", "application/x-protobuf", "application/x-bzip2"),
+}
+"""Formats of landmark files -> what they may be called when they are sent."""
+ANY_FILE = (OCTETS, "application/gzip")
+"""What a file of each format may be called; so may one that is called nothing."""
 
 RESULT_FORMATS = {
     "JSON": "SPARQL_Results_JSON",

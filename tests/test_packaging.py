@@ -23,6 +23,8 @@ NEEDED = (
     r"symboslam/ontology/environments\.ttl",
     r"symboslam/ontology/shapes/.+\.ttl",
     r"symboslam/reasoning/bundled/knowledge\.json",
+    r"symboslam/engine/evaluation/page\.css",
+    r"symboslam/engine/evaluation/page\.js",
     r"symboslam/engine/writers/page/.+\.html",
     r"symboslam/py\.typed",
 )

@@ -53,6 +53,7 @@ def test_town_is_small_and_conforms_to_the_shapes() -> None:
     assert str(validate_map(file)) == "The map conforms to the shapes."
 
 
+@pytest.mark.proof
 @pytest.mark.parametrize("names", [("slam",), ("team", "town")])
 def test_other_data_conform_to_the_shapes(names: tuple[str, ...]) -> None:
     """Together with the ontology, since they do not describe its classes as a written map does."""
@@ -68,6 +69,7 @@ def test_other_data_conform_to_the_shapes(names: tuple[str, ...]) -> None:
     assert str(validate_map(graph)) == "The map conforms to the shapes."
 
 
+@pytest.mark.proof
 def test_all_data_are_consistent_with_the_ontology() -> None:
     try:
         find_java()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -22,6 +23,7 @@ from symboslam.engine.readers.source import Source
 from symboslam.errors import GeometryError, LandmarkError, SymboSlamError
 
 _RESERVED = frozenset({"class", "tags", "confidence", "id", "time", "agent"})
+Place = Callable[[int], str]
 _FAULTS = (KeyError, TypeError, ValueError, AttributeError)
 
 
@@ -39,8 +41,22 @@ def read(source: Source, knowledge: FeatureIndex, progress: Progress) -> Columns
     return from_object(parse(data, source.name), source.name, knowledge)
 
 
-def from_object(document: object, name: str, knowledge: FeatureIndex) -> Columns:
-    """Columns of a GeoJSON document that is already in memory; see ``read``."""
+def place_of(index: int) -> str:
+    """The place of a feature in a GeoJSON file, in words."""
+    return f"feature {index} (counted from 0)"
+
+
+def from_object(
+    document: object, name: str, knowledge: FeatureIndex, place: Place = place_of
+) -> Columns:
+    """Columns of a GeoJSON document that is already in memory; see ``read``.
+
+    Args:
+        document: it.
+        name: where it comes from, for messages.
+        knowledge: which features there are.
+        place: position of a feature -> words that name its place in what was sent.
+    """
     collection, features = _collection(document, name)
     keys = knowledge.tag_keys - _RESERVED
     first: list[Any] = []
@@ -78,7 +94,7 @@ def from_object(document: object, name: str, knowledge: FeatureIndex) -> Columns
             sure = properties.get("confidence")
             time, agent = properties.get("time"), properties.get("agent")
         except _FAULTS as error:
-            raise _fault(feature, name, index) from error
+            raise _fault(feature, name, place(index)) from error
         first.append(x)
         second.append(y)
         confidence.append(1.0 if sure is None else sure)
@@ -87,20 +103,20 @@ def from_object(document: object, name: str, knowledge: FeatureIndex) -> Columns
         agents.append(agent)
     if bare is not None and (typed or not flat):
         problem = "has neither a class nor tags: give it one of the two"
-        raise LandmarkError(problem, source=name, where=_place(bare))
+        raise LandmarkError(problem, source=name, where=place(bare))
     return Columns(
         source=name,
-        x=_numbers(first, "coordinate", name),
-        y=_numbers(second, "coordinate", name),
+        x=_numbers(first, "coordinate", name, place),
+        y=_numbers(second, "coordinate", name, place),
         kind=np.array(codes, np.int32),
-        kinds=_kinds(kinds, codes, name),
-        place=_place,
-        crs=_crs(collection, name),
+        kinds=_kinds(kinds, codes, name, place),
+        place=place,
+        crs=crs_of(collection, name),
         crs_from="file" if collection.get("crs_units") or collection.get("crs") else "default",
-        confidence=_numbers(confidence, "confidence", name),
-        id=_texts(ids, "id", name),
-        time=_texts(times, "time", name),
-        agent=_texts(agents, "agent", name),
+        confidence=_numbers(confidence, "confidence", name, place),
+        id=_texts(ids, "id", name, place),
+        time=_texts(times, "time", name, place),
+        agent=_texts(agents, "agent", name, place),
         bbox=collection.get("bbox"),
         surveyed=collection.get("surveyed"),
         attribution=_attribution(collection),
@@ -157,8 +173,12 @@ def _collection(document: object, name: str) -> tuple[Mapping[str, Any], list[An
     raise LandmarkError(problem, source=name)
 
 
-def _crs(collection: Mapping[str, Any], name: str) -> str:
-    """The coordinate system that the collection names: ``crs_units``, or the old ``crs``."""
+def crs_of(collection: Mapping[str, Any], name: str) -> str:
+    """The coordinate system that the collection names: ``crs_units``, or the old ``crs``.
+
+    Raises:
+        GeometryError: what it says is none, or it says both.
+    """
     units, crs = collection.get("crs_units"), collection.get("crs")
     if units not in (None, METRES):
         raise GeometryError(
@@ -187,18 +207,13 @@ def _attribution(collection: Mapping[str, Any]) -> str:
     return next((text for text in texts if isinstance(text, str) and text.strip()), "")
 
 
-def _place(index: int) -> str:
-    return f"feature {index} (counted from 0)"
-
-
 def _tags(tags: Mapping[str, Any], keys: frozenset[str]) -> Tags:
     """The tags with keys that some feature has, sorted; others cannot change the match."""
     return tuple(sorted((k, v) for k, v in tags.items() if k in keys and v not in (None, "")))
 
 
-def _fault(feature: Any, name: str, index: int) -> SymboSlamError:
+def _fault(feature: Any, name: str, where: str) -> SymboSlamError:
     """What is wrong with a feature that could not be read."""
-    where = _place(index)
     if not isinstance(feature, Mapping):
         problem = f"is a JSON {_json_type(feature)}, not a feature"
         return LandmarkError(problem, source=name, where=where)
@@ -230,12 +245,12 @@ def _fault(feature: Any, name: str, index: int) -> SymboSlamError:
     return LandmarkError(problem, source=name, where=where)
 
 
-def _numbers(values: list[Any], what: str, name: str) -> Floats:
+def _numbers(values: list[Any], what: str, name: str, place: Place) -> Floats:
     if not set(map(type, values)) <= {int, float}:
         for index, value in enumerate(values):
             if isinstance(value, bool) or not isinstance(value, int | float):
                 problem = f"its {what} is {_show(value)}, not a number"
-                raise LandmarkError(problem, source=name, where=_place(index))
+                raise LandmarkError(problem, source=name, where=place(index))
     try:
         return np.array(values, np.float64)
     except OverflowError:
@@ -249,7 +264,7 @@ def _float(value: float) -> float:
         return float("inf")
 
 
-def _kinds(kinds: Codes, codes: list[int], name: str) -> list[Kind]:
+def _kinds(kinds: Codes, codes: list[int], name: str, place: Place) -> list[Kind]:
     """The distinct kinds with all tag values as text."""
     result: list[Kind] = []
     for code, (label, tags) in enumerate(kinds):
@@ -259,7 +274,7 @@ def _kinds(kinds: Codes, codes: list[int], name: str) -> list[Kind]:
             result.append((label.strip(), tuple((key, _tag_text(value)) for key, value in tags)))
         except (TypeError, ValueError) as error:
             problem = "its class or tags are not text"
-            raise LandmarkError(problem, source=name, where=_place(codes.index(code))) from error
+            raise LandmarkError(problem, source=name, where=place(codes.index(code))) from error
     return result
 
 
@@ -271,7 +286,7 @@ def _tag_text(value: object) -> str:
     raise TypeError
 
 
-def _texts(values: list[Any], what: str, name: str) -> list[str | None] | None:
+def _texts(values: list[Any], what: str, name: str, place: Place) -> list[str | None] | None:
     """A column of optional texts; numbers are written out, None if all are missing."""
     if not any(value is not None for value in values):
         return None
@@ -279,12 +294,12 @@ def _texts(values: list[Any], what: str, name: str) -> list[str | None] | None:
         if value is None or type(value) is str:
             continue
         try:
-            if type(value) is not int and type(value) is not float:
+            if type(value) is not int and not (type(value) is float and math.isfinite(value)):
                 raise TypeError
             values[index] = str(value)
         except (TypeError, ValueError) as error:
             problem = f"its {what} is {_show(value)}, not text"
-            raise LandmarkError(problem, source=name, where=_place(index)) from error
+            raise LandmarkError(problem, source=name, where=place(index)) from error
     return values
 
 

@@ -75,12 +75,17 @@ def format_of(target: str | Path, format: str | None = None) -> str:
     raise OutputError(f"{target}: no format has the ending {suffix!r}; use one of {endings}")
 
 
-def check_targets(targets: Iterable[str | Path], inputs: Iterable[str | Path] = ()) -> None:
+def check_targets(
+    targets: Iterable[str | Path],
+    inputs: Iterable[str | Path] = (),
+    known: Callable[[str | Path], object] = format_of,
+) -> None:
     """Refuse targets that cannot be written, before any work is done for them.
 
     Args:
         targets: the files to write.
         inputs: files that are read, which no target may replace.
+        known: raises an OutputError for a target whose format is not known.
 
     Raises:
         OutputError: a target without a known format, one that is named twice, or one whose
@@ -89,7 +94,7 @@ def check_targets(targets: Iterable[str | Path], inputs: Iterable[str | Path] = 
     read = {os.path.realpath(name) for name in inputs if str(name) != "-"}
     seen = set()
     for target in targets:
-        format_of(target)
+        known(target)
         place = str(target) if str(target) == "-" else os.path.realpath(target)
         if place in seen:
             raise OutputError(f"{target} is named twice; each output needs its own file")

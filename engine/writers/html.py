@@ -49,10 +49,10 @@ def render_html(environment_map: EnvironmentMap, *, reasons: int = REASONS) -> s
     data = payload(environment_map, reasons)
     style, script = _part("page.css"), _script()
     parts = {
-        "title": html.escape(_printable(data["title"])),
-        "summary": html.escape(_printable(_summary(data))),
-        "style-hash": _hash(style),
-        "script-hash": _hash(script),
+        "title": html.escape(printable(data["title"])),
+        "summary": html.escape(printable(_summary(data))),
+        "style-hash": csp_hash(style),
+        "script-hash": csp_hash(script),
         "style": style,
         "script": script,
         "data": _json(data),
@@ -71,7 +71,7 @@ def _script() -> str:
     return '"use strict";\n(() => {\n' + "\n".join(map(_part, _SCRIPTS)) + "})();\n"
 
 
-def _hash(text: str) -> str:
+def csp_hash(text: str) -> str:
     """What the content security policy calls a script or style that is allowed."""
     return "sha256-" + b64encode(sha256(text.encode()).digest()).decode()
 
@@ -82,7 +82,7 @@ def _json(data: dict[str, Any]) -> str:
     return text.replace("<", r"\u003c").replace(">", r"\u003e").replace("&", r"\u0026")
 
 
-def _printable(text: str) -> str:
+def printable(text: str) -> str:
     """Text that has a form in UTF-8: half a surrogate pair becomes a question mark."""
     return text.encode("utf-8", "replace").decode("utf-8")
 

@@ -30,7 +30,10 @@ from symboslam.reasoning.vocabulary import SL
 
 
 def provenance(
-    records: Records, ended: datetime | None, landmarks: tuple[int, Iterable[str]] | None = None
+    records: Records,
+    ended: datetime | None,
+    landmarks: tuple[int, Iterable[str]] | None = None,
+    title: str = "",
 ) -> Iterator[Record]:
     """The map, the run that made it, and what the run used.
 
@@ -38,15 +41,18 @@ def provenance(
         records: the map.
         ended: when the run ended; None leaves it out.
         landmarks: how many there are, and who observed them, where ``records`` holds only some.
+        title: what people call the map, if anything.
     """
     s, m, a = records.syntax, records.map, records.a
     area = shapely.to_wkt(
         shapely.box(*records.content.bbox), rounding_precision=records.content.decimals
     )
+    named: Properties = [(s.iri(DCTERMS + "title"), [s.text(title)])] if title else []
     yield (
         s.own("map"),
         [
             a(SL + "EnvironmentMap", PROV + "Entity"),
+            *named,
             (s.iri(PROV + "wasGeneratedBy"), [s.own("run")]),
             (s.iri(DCTERMS + "spatial"), [[a(GEO + "Feature"), records.geometry(area)]]),
             (s.iri(SL + "considers"), list(records.environments)),

@@ -149,25 +149,28 @@ class NQuads(Syntax):
 
     def statements(self, graph: str, subject: str, properties: Properties) -> str:
         """Lines; blank nodes are named after their subject, so that files can be compared."""
-        lines: list[str] = []
-        count = 0
+        return "".join(self.lines(graph, subject, properties))
 
-        root = subject
+    def lines(self, graph: str, subject: str, properties: Properties) -> list[str]:
+        """The lines of `statements`."""
+        lines: list[str] = []
+        root, end = subject, f" {graph} .\n"
+        count = 0
 
         def add(subject: str, properties: Properties) -> None:
             nonlocal count
             for predicate, values in properties:
                 for value in values:
                     if isinstance(value, str):
-                        lines.append(f"{subject} {predicate} {value} {graph} .\n")
+                        lines.append(f"{subject} {predicate} {value}{end}")
                     else:
                         count += 1
                         blank = self._node(root, count)
-                        lines.append(f"{subject} {predicate} {blank} {graph} .\n")
+                        lines.append(f"{subject} {predicate} {blank}{end}")
                         add(blank, value)
 
         add(subject, properties)
-        return "".join(lines)
+        return lines
 
     def _node(self, subject: str, number: int) -> str:
         """A blank node of a subject."""

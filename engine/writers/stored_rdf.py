@@ -25,7 +25,15 @@ def read_rdf(path: Path) -> StoredMap:
     Raises:
         InputError: it cannot be read, does not parse, or is no environment map.
     """
-    index = read_index(path)
+    return stored_map(read_index(path), path)
+
+
+def stored_map(index: Index, path: Path) -> StoredMap:
+    """The map among the statements of a file.
+
+    Raises:
+        InputError: there is none, or it is incomplete.
+    """
     if not index.of_type(SL + "EnvironmentMap"):
         raise InputError(f"{path} holds no sl:EnvironmentMap")
     try:

@@ -18,13 +18,15 @@ from symboslam.errors import SymboSlamError
 from symboslam.reasoning.knowledge import Knowledge
 from symboslam.service.auth import CanIngest, CanQuery
 from symboslam.service.dependencies import CurrentSettings
+from symboslam.service.json_body import unsupported
 from symboslam.service.maps import openapi
 from symboslam.service.maps.maps import Maps
 from symboslam.service.maps.models import JobInfo, Options
 from symboslam.service.maps.routes import CurrentMaps, options_of
 from symboslam.service.openapi import made
 from symboslam.service.problems import Problem
-from symboslam.service.requests import body_to_file
+from symboslam.service.requests import body_to_file, media_type
+from symboslam.service.vocabulary import ANY_FILE, FILES
 
 router = APIRouter(prefix="/v1/jobs", tags=["Jobs"])
 _KEPT = 1000
@@ -62,6 +64,10 @@ class Jobs:
         folder.mkdir(parents=True, exist_ok=True)
         for left in folder.iterdir():
             left.unlink()
+
+    def all(self) -> list[Job]:
+        """The last jobs, the oldest first."""
+        return list(self._jobs.values())
 
     def find(self, identifier: str) -> Job | None:
         """A job, or None."""
@@ -164,11 +170,16 @@ async def start_job(
 ) -> JobInfo:
     """Make a map of a whole file of landmarks: the body, in any format that is read here.
 
+    A `Content-Type` has to agree with `format`; `application/octet-stream` always does.
+
     The response says where its progress is told.
     """
     if jobs.waiting >= _MOST_WAITING:
         detail = f"{jobs.waiting} files are waiting already"
         raise Problem(429, "too-many-files", detail, headers={"Retry-After": "10"})
+    kind, _message = media_type(request.headers.get("content-type"))
+    if kind and kind not in (known := (*FILES[format], *ANY_FILE)):
+        raise unsupported(kind, known)
     file = jobs.folder / token_hex(8)
     try:
         await body_to_file(request, file, settings.max_body_bytes)
@@ -182,6 +193,12 @@ async def start_job(
     job = jobs.start(file, name, wanted, format, crs, _box(bbox))
     response.headers["Location"] = f"/v1/jobs/{job.info.id}"
     return job.info
+
+
+@router.get("", summary="The last jobs")
+async def list_jobs(jobs: CurrentJobs, _: CanQuery) -> list[JobInfo]:
+    """The jobs since the service was started, the oldest first; of very many the last ones."""
+    return [job.info for job in jobs.all()]
 
 
 @router.get("/{job_id}", summary="How far is it?")

@@ -5,11 +5,13 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import hashlib
+from collections import OrderedDict
 from dataclasses import asdict, replace
 from datetime import UTC, datetime
 from pathlib import Path
 from secrets import token_hex
 from typing import Any
+from weakref import WeakValueDictionary
 
 import numpy as np
 import shapely
@@ -42,6 +44,8 @@ from symboslam.service.vocabulary import N_TRIPLES
 BUNDLED = "bundled"
 MOST_CELLS = 192
 """Finest cells along each side that a kept map may have: 8 times the paper's."""
+MOST_OPEN = 32
+"""Maps that stay in memory though nobody uses them."""
 
 
 class Maps:
@@ -57,7 +61,8 @@ class Maps:
     def __init__(self, records: Records, store: Store, ontologies: Path, metrics: Metrics) -> None:
         self.records, self._store, self._ontologies = records, store, ontologies
         self._metrics = metrics
-        self._running: dict[str, RunningMap] = {}
+        self._running: WeakValueDictionary[str, RunningMap] = WeakValueDictionary()
+        self._recent: OrderedDict[str, RunningMap] = OrderedDict()
         self._knowledge: dict[str, Knowledge] = {}
         self._opening: dict[str, asyncio.Lock] = {}
         self._catching_up: asyncio.Task[None] | None = None
@@ -162,7 +167,8 @@ class Maps:
             name: what people call it.
             area: frame, box, surveyed area and report.
             options: ``ontology``, ``profile``, ``scheme``, ``settings``, ``merge_radius``,
-                ``reasons``, ``source``, ``attribution``.
+                ``reasons``; and, if there are any, ``bbox`` (as it was sent), ``source``,
+                ``attribution``.
             identifier: its id; a new one by default.
 
         Raises:
@@ -182,7 +188,7 @@ class Maps:
         rows = [(n, features[each.feature].iri, each) for n, each in enumerate(landmarks)]
         async with self.coming_and_going:
             await asyncio.to_thread(self.records.add, record, rows)
-            self._running[record.id] = running
+            self._keep(running)
             await running.state()
         return running
 
@@ -194,7 +200,7 @@ class Maps:
         """
         running = self._running.get(identifier)
         if running is not None and not running.broken:
-            return running
+            return self._keep(running)
         async with self._opening.setdefault(identifier, asyncio.Lock()):
             running = self._running.get(identifier)
             if running is not None and not running.broken:
@@ -214,8 +220,17 @@ class Maps:
             names = await asyncio.to_thread(self.records.names, identifier)
             running = await asyncio.to_thread(self._make, record, knowledge, landmarks, names)
             await running.remember()
-            self._running[identifier] = running
-            return running
+            return self._keep(running)
+
+    def _keep(self, running: RunningMap) -> RunningMap:
+        """Keep a map in memory, and of the others those that were used last or are in use."""
+        identifier = running.record.id
+        self._running[identifier] = running
+        self._recent[identifier] = running
+        self._recent.move_to_end(identifier)
+        while len(self._recent) > MOST_OPEN:
+            self._recent.popitem(last=False)
+        return running
 
     async def remove(self, identifier: str) -> None:
         """Remove a map and what is stated of it.
@@ -227,6 +242,7 @@ class Maps:
         async with self.coming_and_going:
             await running.remove()
             self._running.pop(identifier, None)
+            self._recent.pop(identifier, None)
 
     def _make(
         self,
@@ -251,7 +267,7 @@ class Maps:
             live.resume(record.absence)
         return RunningMap(
             record, live, knowledge,
-            Statements(live, base_of(record.id), options["reasons"]),
+            Statements(live, base_of(record.id), options["reasons"], record.name),
             Sightings(live.table, options["merge_radius"], names), self.records, self._store,
             self._metrics,
         )  # fmt: skip

@@ -11,7 +11,7 @@ from symboslam.engine.account import Change, Difference, LandmarkPart, PairPart,
 from symboslam.reasoning.knowledge import Indication
 from symboslam.service.maps.openapi import TEXT
 
-_STRICT = ConfigDict(extra="forbid")
+_STRICT = ConfigDict(extra="forbid", strict=True)
 Length = Literal["line", "paragraph", "full"]
 
 
@@ -93,7 +93,10 @@ class MapInfo(BaseModel):
     id: str
     name: str
     iri: str = Field(description="IRI of the map, the base of its graphs and of all that is in it.")
-    bbox: list[float]
+    bbox: list[float] = Field(
+        description="As it was sent; else, or where it was sent in another system than `crs`, the"
+        " box around the map."
+    )
     crs: str
     created: datetime
     changed: datetime

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import json
-from dataclasses import dataclass, replace
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Any
 
@@ -14,8 +15,11 @@ from symboslam.engine.readers.checks import LONGEST_ID, UNWRITABLE, check_ids
 from symboslam.engine.table import Landmark
 from symboslam.errors import InputError, LandmarkError
 from symboslam.reasoning.knowledge import Knowledge
+from symboslam.service.json_body import JSONError, RepeatedMemberError, parse_text, unique
 from symboslam.service.vocabulary import NDJSON
 
+_SHOWN = 5
+"""Ids that a note names."""
 _MEMBERS = ("class", "tags", "confidence", "time", "agent")
 
 
@@ -61,11 +65,9 @@ def read(
     except UnicodeDecodeError as error:
         where = f"line {body[: error.start].count(10) + 1}"
         raise LandmarkError("it is not UTF-8 text", source="body", where=where) from error
-    lines = media_type == NDJSON
-    document = _lines(text) if lines else geojson.parse(text, "body", _unique)
-    columns = geojson.from_object(document, "body", knowledge)
-    if lines:
-        columns = replace(columns, place=lambda row: f"line {row + 1}")
+    document, place_of = _lines(text) if media_type == NDJSON else _document(text)
+    columns = geojson.from_object(document, "body", knowledge, place_of)
+    _check_agents(document, place_of)
     names = [str(name or "") for name in columns.id or [""] * len(columns)]
     check_ids(columns)
     found = place(columns, knowledge, area, crs)
@@ -83,33 +85,32 @@ def read(
     return Observations(landmarks, found.report, len(columns))
 
 
-def _unique(members: list[tuple[str, Any]]) -> dict[str, Any]:
-    """An object of JSON whose members have names of their own."""
-    found = dict(members)
-    if len(found) != len(members):
-        names = [name for name, _ in members]
-        twice = next(name for name in names if names.count(name) > 1)
-        raise LandmarkError(f"it has the member {twice[:40]!r} twice", source="body")
-    return found
+def _document(text: str) -> tuple[object, geojson.Place]:
+    """GeoJSON, and what the place of a feature is called."""
+    try:
+        return geojson.parse(text, "body", unique), geojson.place_of
+    except RepeatedMemberError as error:
+        raise LandmarkError(str(error), source="body") from error
 
 
-def _lines(body: str) -> dict[str, Any]:
-    """NDJSON -> the GeoJSON collection that says the same."""
-    features = []
+def _lines(body: str) -> tuple[object, geojson.Place]:
+    """NDJSON -> the GeoJSON that says the same, and what the place of a feature is called."""
+    numbers, features = [], []
     for number, line in enumerate(body.split("\n"), 1):
         if line.strip():
+            numbers.append(number)
             features.append(_feature(line, number))
-    return {"type": "FeatureCollection", "features": features}
+    return {"type": "FeatureCollection", "features": features}, lambda row: f"line {numbers[row]}"
 
 
 def _feature(line: str, number: int) -> dict[str, Any]:
     try:
-        value = json.loads(line, object_pairs_hook=_unique)
-    except LandmarkError as error:
-        raise LandmarkError(error.problem, source="body", where=f"line {number}") from error
-    except (ValueError, RecursionError) as error:
-        problem = getattr(error, "msg", "it is not JSON, or is nested too deeply")
-        raise LandmarkError(problem, source="body", where=f"line {number}") from error
+        value = parse_text(line)
+    except RepeatedMemberError as error:
+        raise LandmarkError(str(error), source="body", where=f"line {number}") from error
+    except JSONError as error:
+        where = f"line {number} column {error.column}"
+        raise LandmarkError(error.problem, source="body", where=where) from error
     if not isinstance(value, dict):
         problem = "it is no JSON object"
         raise LandmarkError(problem, source="body", where=f"line {number}")
@@ -126,6 +127,58 @@ def _feature(line: str, number: int) -> dict[str, Any]:
         "geometry": {"type": "Point", "coordinates": value.get("coordinates")},
         "properties": {name: value[name] for name in _MEMBERS if name in value},
     }
+
+
+def _check_agents(document: Any, place_of: geojson.Place) -> None:
+    """Agents are texts, though files may have numbers there; the document was read already.
+
+    Raises:
+        LandmarkError: the first that is not.
+    """
+    for row, feature in enumerate(document["features"]):
+        agent = (feature.get("properties") or {}).get("agent")
+        if agent is not None and not isinstance(agent, str):
+            problem = f"its agent is {str(agent)[:60]}, not text"
+            raise LandmarkError(problem, source="body", where=place_of(row))
+
+
+def notes_on_ids(landmarks: Iterable[tuple[Landmark, str]], radius: float) -> list[str]:
+    """What is odd about the ids of a batch.
+
+    Args:
+        landmarks: as in `Observations`.
+        radius: in metres; the same id twice is of one place within it.
+
+    >>> notes_on_ids([(Landmark("", 0, 1.0, 2.0, 1.0), "h1")], 5.0)
+    ['an id does not say which landmark it is without an agent; name the agent of h1']
+    """
+    first: dict[tuple[str, str], Landmark] = {}
+    unowned: dict[str, None] = {}
+    apart: dict[str, None] = {}
+    for seen, name in landmarks:
+        if not name:
+            continue
+        if not seen.agent:
+            unowned[name] = None
+            continue
+        earlier = first.setdefault((seen.agent, name), seen)
+        distance = math.hypot(seen.x - earlier.x, seen.y - earlier.y)
+        if earlier.feature != seen.feature or distance > radius:
+            apart[f"{name} of {seen.agent}"] = None
+    notes = []
+    if unowned:
+        problem = "an id does not say which landmark it is without an agent; name the agent of"
+        notes.append(f"{problem} {_listed(unowned)}")
+    if apart:
+        problem = f"different classes, or places farther than {radius:g} m apart"
+        notes.append(f"in one batch there are {problem}, under the same id: {_listed(apart)}")
+    return notes
+
+
+def _listed(names: Mapping[str, None]) -> str:
+    """The first of many ids, and how many more there are."""
+    more = len(names) - _SHOWN
+    return ", ".join(list(names)[:_SHOWN]) + (f" and {more} more" if more > 0 else "")
 
 
 def check_agent(name: str | None) -> str | None:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from itertools import chain
 from typing import Any
 
 from symboslam.service.openapi import also
-from symboslam.service.vocabulary import GEOJSON, NDJSON, TURTLE
+from symboslam.service.vocabulary import ANY_FILE, FILES, GEOJSON, NDJSON, OCTETS, TURTLE
 
 TEXT = r"^[^\u0000-\u001f\u007f\ufffe\uffff]*$"
 """Pattern of a text in one line without control characters."""
@@ -40,7 +41,8 @@ _COORDINATES = {
 }
 _ID = {
     **_NAME, "minLength": 1,
-    "description": "What the agent calls the landmark; the same again is the same landmark.",
+    "description": "What the agent calls the landmark; the same again of the same agent is the same"
+    " landmark. Without an agent it is of no account.",
 }  # fmt: skip
 _CLASS_OR_TAGS = [{"required": ["class"]}, {"required": ["tags"]}]
 _LINE = {
@@ -117,9 +119,8 @@ FILE: dict[str, Any] = {
         "requestBody": {
             "required": True,
             "content": {
-                "application/octet-stream": {
-                    "schema": {"type": "string", "format": "binary", "minLength": 1}
-                }
+                OCTETS: {"schema": {"type": "string", "format": "binary", "minLength": 1}},
+                **{kind: {"schema": {}} for kind in (*ANY_FILE[1:], *chain(*FILES.values()))},
             },
         }
     },

@@ -224,15 +224,15 @@ class Records:
                 (record.revision, record.changed, json.dumps(record.left_out), i),
             )
 
-    def keep_override(self, record: MapRecord, override: Override) -> None:
-        """Add an override, or change one."""
-        values = asdict(override)
+    def keep_overrides(self, record: MapRecord, overrides: Iterable[Override]) -> None:
+        """Add overrides, or change some."""
         with self._transaction() as database:
-            database.execute(
-                f"INSERT OR REPLACE INTO override (map, {', '.join(values)})"
-                f" VALUES (?{', ?' * len(values)})",
-                (record.id, *values.values()),
-            )
+            for values in map(asdict, overrides):
+                database.execute(
+                    f"INSERT OR REPLACE INTO override (map, {', '.join(values)})"
+                    f" VALUES (?{', ?' * len(values)})",
+                    (record.id, *values.values()),
+                )
             database.execute(
                 "UPDATE map SET revision = ?, changed = ? WHERE id = ?",
                 (record.revision, record.changed, record.id),

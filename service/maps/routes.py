@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import re
 from collections.abc import AsyncIterator
 from datetime import datetime
 from hashlib import sha256
@@ -14,11 +15,12 @@ from fastapi.sse import EventSourceResponse, ServerSentEvent
 
 from symboslam.engine.landmarks import LandmarkMap
 from symboslam.engine.readers.area import area_of, parse_box, parse_surveyed
-from symboslam.engine.readers.crs import DEGREES, canonical, coordinate_system
+from symboslam.engine.readers.crs import DEGREES, METRES, canonical, coordinate_system
 from symboslam.engine.writers.content import Content
 from symboslam.errors import InputError, UnknownNameError
 from symboslam.service.auth import AdminOnly, CanIngest, CanQuery
 from symboslam.service.dependencies import CurrentSettings
+from symboslam.service.json_body import JSONRoute, unsupported
 from symboslam.service.maps import openapi
 from symboslam.service.maps.maps import Maps, base_of, empty_map
 from symboslam.service.maps.models import BatchResult, MapInfo, MapRequest, Options
@@ -28,10 +30,11 @@ from symboslam.service.openapi import made
 from symboslam.service.problems import Problem
 from symboslam.service.requests import media_type, read_body
 from symboslam.service.store._base import BusyError
-from symboslam.service.vocabulary import GEOJSON, NDJSON
+from symboslam.service.vocabulary import GEOJSON, JSON, NDJSON
 
-router = APIRouter(prefix="/v1/maps", tags=["Maps"])
-_KINDS = (NDJSON, GEOJSON, "application/json", "application/ndjson", "application/jsonl")
+router = APIRouter(prefix="/v1/maps", tags=["Maps"], route_class=JSONRoute)
+_KINDS = (NDJSON, GEOJSON, JSON, "application/ndjson", "application/jsonl")
+_WHERE = re.compile(r"line (?P<line>\d+)(?: column (?P<column>\d+))?")
 
 
 async def _maps(request: Request) -> Maps:
@@ -63,7 +66,7 @@ async def create_map(
     """Make an empty map of an area, to be fed with observations."""
     try:
         area = await asyncio.to_thread(_area, wanted)
-        options = await options_of(wanted, maps)
+        options = await options_of(wanted, maps) | {"bbox": _box(wanted)}
         running = await maps.create(wanted.name, area, options)
     except InputError as error:
         raise Problem(422, "invalid-map", str(error)) from error
@@ -94,6 +97,12 @@ def _area(wanted: MapRequest) -> LandmarkMap:
     surveyed = parse_surveyed(wanted.surveyed, system, "surveyed")
     found = area_of(box, system, given=True, surveyed=surveyed, source="bbox")
     return empty_map(found.frame, found.bbox, found.surveyed)
+
+
+def _box(wanted: MapRequest) -> list[float] | None:
+    """The box as it was sent, where that is in the coordinates of the map."""
+    plain = canonical(wanted.crs or DEGREES) in (DEGREES, METRES)
+    return wanted.bbox if plain else None
 
 
 @router.get("", summary="All maps")
@@ -137,8 +146,7 @@ async def post_observations(
     """
     kind, _message = media_type(request.headers.get("content-type"))
     if kind not in _KINDS:
-        detail = f"send observations as {GEOJSON} or {NDJSON}"
-        raise Problem(415, "unsupported-media-type", detail)
+        raise unsupported(kind, (GEOJSON, NDJSON))
     kind = NDJSON if "nd" in kind or "lines" in kind or kind.endswith("jsonl") else GEOJSON
     body = await read_body(request, settings.max_body_bytes)
     batch = idempotency_key or token_hex(8)
@@ -146,7 +154,7 @@ async def post_observations(
         who = check_agent(agent)
         found = await asyncio.to_thread(_read, body, kind, running, who, crs)
     except InputError as error:
-        raise Problem(422, "invalid-observations", str(error)) from error
+        raise Problem(422, "invalid-observations", str(error), **_place(error)) from error
     digest = sha256(f"{kind} {crs} ".encode() + body).hexdigest()
     try:
         result = await running.take(f"{who or ''}/{batch}", digest, found)
@@ -156,6 +164,12 @@ async def post_observations(
     except BusyError as error:
         raise Problem(503, "too-busy", str(error), headers={"Retry-After": "1"}) from error
     return BatchResult.model_validate({**result, "batch": batch})
+
+
+def _place(error: InputError) -> dict[str, Any]:
+    """Line and column of what is wrong, as far as they are known."""
+    found = _WHERE.match(getattr(error, "where", ""))
+    return {} if found is None else {name: int(n) for name, n in found.groupdict("").items() if n}
 
 
 def _read(
@@ -189,7 +203,7 @@ async def info(running: RunningMap, maps: Maps) -> MapInfo:
         id=record.id,
         name=record.name,
         iri=f"{base_of(record.id)}map",
-        bbox=list(content.bbox),
+        bbox=record.options.get("bbox") or list(content.bbox),
         crs=running.live.area.frame.name,
         created=datetime.fromisoformat(record.created),
         changed=datetime.fromisoformat(record.changed),

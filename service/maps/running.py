@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-from collections import Counter
+from collections import Counter, OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
@@ -23,7 +23,7 @@ from symboslam.engine.live import Change, LiveMap
 from symboslam.engine.sightings import Name, Sightings
 from symboslam.reasoning.knowledge import Knowledge
 from symboslam.service.maps.events import Events
-from symboslam.service.maps.observations import Observations
+from symboslam.service.maps.observations import Observations, notes_on_ids
 from symboslam.service.maps.records import MapRecord, Override, Records
 from symboslam.service.maps.statements import GRAPHS, Statements
 from symboslam.service.metrics import Metrics
@@ -33,6 +33,7 @@ from symboslam.service.vocabulary import N_TRIPLES
 T = TypeVar("T")
 MOST_WAITING = 256
 """Batches that may wait for a map."""
+_MOST_KEPT = 4
 _TOGETHER = 64
 """Batches that are taken at a time."""
 
@@ -84,15 +85,17 @@ class RunningMap:
         self._lock = asyncio.Lock()
         self._waiting: list[Waiting] = []
         self._worker: asyncio.Task[None] | None = None
-        self._cache: dict[str, tuple[int, Any]] = {}
+        self._cache: OrderedDict[str, tuple[int, Any]] = OrderedDict()
 
     async def read(self, key: str, make: Callable[[LiveMap], T]) -> T:
-        """Something made of the map as it is now; the same is made once for each revision."""
+        """Something made of the map as it is now; the last few are kept until it changes."""
         async with self._lock:
-            revision, found = self._cache.get(key, (-1, None))
+            revision, found = self._cache.pop(key, (-1, None))
             if revision != self.record.revision:
                 found = await asyncio.to_thread(make, self.live)
-                self._cache[key] = self.record.revision, found
+            self._cache[key] = self.record.revision, found
+            while len(self._cache) > _MOST_KEPT:
+                self._cache.popitem(last=False)
             return found  # type: ignore[no-any-return]
 
     async def segment(self, name: str) -> EnvironmentMap:
@@ -133,22 +136,34 @@ class RunningMap:
             self._worker = asyncio.create_task(self._work())
         return await asyncio.shield(done)
 
-    async def override(self, override: Override) -> Override:
-        """Make an operator's statement, or take it back."""
+    async def override(self, segment: str, made: Override | None = None) -> list[Override]:
+        """Take back what operators say of a segment, and state something else if it is given.
+
+        Returns:
+            What was changed, the new statement last; nothing where nothing was in force.
+        """
         async with self._lock:
             await self._ready()
-            if not override.snapshot:
-                snapshot = self._statements.of_segment(override.segment)
-                override = replace(override, snapshot=snapshot)
             record = self._next()
-            await asyncio.to_thread(self._records.keep_override, record, override)
+            known = await asyncio.to_thread(self._records.overrides, record.id)
+            changed = [
+                replace(each, undone=record.changed)
+                for each in known
+                if each.segment == segment and each.undone is None
+            ]
+            if made is not None:
+                changed.append(replace(made, snapshot=self._statements.of_segment(segment)))
+            if not changed:
+                return []
+            await asyncio.to_thread(self._records.keep_overrides, record, changed)
             self.record = record
             ended = datetime.fromisoformat(record.changed)
-            await self._patch(*await asyncio.to_thread(self._statements.override, override, ended))
-            self.events.publish(
-                record.revision, {"override": override.id, "segment": override.segment}
-            )
-            return override
+            await self._patch(*await asyncio.to_thread(self._statements.override, changed, ended))
+            last = changed[-1]
+            told = {"id": last.id, "environment": last.environment or None,
+                    "operator": last.operator, "undone": last.undone is not None}  # fmt: skip
+            self.events.publish(record.revision, {"segment": segment, "override": told})
+            return changed
 
     async def remove(self) -> None:
         """Take the map out of the store and the records; what waits for it is refused.
@@ -247,8 +262,8 @@ class RunningMap:
         for seen, name in found.landmarks:
             landmark = self._sightings.observe(seen, name)
             new += landmark.count == 1
-            if name:
-                names[seen.agent or "", name] = landmark.id
+            if name and seen.agent:
+                names[seen.agent, name] = landmark.id
         add_left_out(record.left_out, found.report)
         return {
             "batch": batch.id,
@@ -259,7 +274,10 @@ class RunningMap:
                 "outside": found.report.outside,
                 "unknown": dict(found.report.unknown.most_common(_MOST_UNKNOWN)),
             },
-            "notes": list(found.report.notes),
+            "notes": [
+                *found.report.notes,
+                *notes_on_ids(found.landmarks, record.options["merge_radius"]),
+            ],
             "revision": record.revision,
         }
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import io
 import json
-from dataclasses import replace
 from datetime import UTC, datetime
 from secrets import token_hex
 from typing import Annotated, Any, Literal
@@ -18,6 +17,7 @@ from symboslam.engine.writers.geojson import to_geojson
 from symboslam.engine.writers.options import reasons_wanted
 from symboslam.errors import UnknownNameError
 from symboslam.service.auth import CanQuery, CanUpdate
+from symboslam.service.json_body import JSONRoute
 from symboslam.service.maps import openapi
 from symboslam.service.maps.explaining import explained
 from symboslam.service.maps.maps import base_of
@@ -33,7 +33,7 @@ from symboslam.service.maps.running import RunningMap
 from symboslam.service.problems import Problem
 from symboslam.service.vocabulary import GEOJSON
 
-router = APIRouter(prefix="/v1/maps/{map_id}", tags=["Maps"])
+router = APIRouter(prefix="/v1/maps/{map_id}", tags=["Maps"], route_class=JSONRoute)
 _TYPES = {
     "geojson": GEOJSON,
     "ttl": "text/turtle; charset=utf-8",
@@ -169,7 +169,7 @@ async def list_overrides(_: CanQuery, running: CurrentMap, maps: CurrentMaps) ->
 
 @router.put("/segments/{segment}/override", summary="Override a segment")
 async def put_override(
-    who: CanUpdate, running: CurrentMap, maps: CurrentMaps, segment: str, wanted: OverrideRequest
+    who: CanUpdate, running: CurrentMap, segment: str, wanted: OverrideRequest
 ) -> OverrideInfo:
     """State that a segment is of another type; what was worked out stays beside it.
 
@@ -180,27 +180,19 @@ async def put_override(
     if wanted.environment is not None and wanted.environment not in environments:
         detail = f"environment: there is no {wanted.environment!r}; there are "
         raise Problem(422, "invalid-override", detail + ", ".join(environments))
-    for earlier in await _overrides(running, maps):
-        if earlier.segment == segment:
-            await running.override(replace(earlier, undone=_now()))
     override = Override(
         id=token_hex(6), segment=segment,
         environment=wanted.environment and environments[wanted.environment],
         operator=wanted.operator or who.name, reason=wanted.reason, made=_now(),
     )  # fmt: skip
-    return _info(await running.override(override), running)
+    return _info((await running.override(segment, override))[-1], running)
 
 
 @router.delete("/segments/{segment}/override", status_code=204, summary="Take an override back")
-async def delete_override(
-    _: CanUpdate, running: CurrentMap, maps: CurrentMaps, segment: str
-) -> None:
+async def delete_override(_: CanUpdate, running: CurrentMap, segment: str) -> None:
     """Take the override of a segment back; it stays on record."""
-    mine = [each for each in await _overrides(running, maps) if each.segment == segment]
-    if not mine:
+    if not await running.override(segment):
         raise Problem(404, "no-such-override", f"no override of {segment[:80]!r} is in force")
-    for each in mine:
-        await running.override(replace(each, undone=_now()))
 
 
 @router.get("/export", summary="The map as a file", response_class=Response, **openapi.EXPORT)

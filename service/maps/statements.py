@@ -35,10 +35,12 @@ class Statements:
         live: the map.
         base: IRI below which its own IRIs and graphs lie, ending in ``/``.
         reasons: how many reasons of a segment are stated, the strongest first.
+        title: what people call the map.
     """
 
-    def __init__(self, live: LiveMap, base: str, reasons: int) -> None:
+    def __init__(self, live: LiveMap, base: str, reasons: int, title: str = "") -> None:
         self._live, self.base, self._options = live, base, WriteOptions(reasons)
+        self._title = title
         self._syntax = Skolemised(base, {})
         self._landmarks: dict[str, Lines] = {}
         self._segments: dict[str, Lines] = {}
@@ -105,16 +107,17 @@ class Statements:
         self._terms |= new
         return new
 
-    def override(self, override: Override, ended: datetime) -> tuple[str, str]:
-        """An operator's statement, made or taken back: statements to take back and to add."""
-        known = self._overrides.setdefault(override.segment, [])
-        before = [each for each in known if each.id == override.id]
-        removed = [line for each in before for line in self._of_override(each)]
-        removed += self._provenance
-        known[:] = [each for each in known if each.id != override.id] + [override]
+    def override(self, overrides: Sequence[Override], ended: datetime) -> tuple[str, str]:
+        """What operators say now, or take back: statements to take back and to add."""
+        removed, added = set(self._provenance), set[str]()
+        for override in overrides:
+            known = self._overrides.setdefault(override.segment, [])
+            removed.update(line for e in known if e.id == override.id for line in self._of(e))
+            known[:] = [each for each in known if each.id != override.id] + [override]
+            added.update(self._of(override))
         records = Records(Content(self._live.described([])), self._syntax)
-        added = [*self._of_override(override), *self._lineage(records, ended)]
-        return "".join(removed), "".join(added)
+        added |= self._lineage(records, ended)
+        return "".join(removed - added), "".join(added - removed)
 
     def of_segment(self, name: str) -> str:
         """What is stated of a segment now, to be kept with an override of it."""
@@ -123,7 +126,8 @@ class Statements:
     def _lineage(self, records: Records, ended: datetime) -> Lines:
         """Where the statements come from, as of now."""
         seen = len(self._live.table), sorted(self._agents)
-        self._provenance = self._lines(provenance(records, ended, seen), "provenance")
+        told = provenance(records, ended, seen, self._title)
+        self._provenance = self._lines(told, "provenance")
         return self._provenance
 
     def _of_landmarks(self, change: Change) -> tuple[set[str], set[str]]:
@@ -148,27 +152,26 @@ class Statements:
             return {}
         records = Records(Content(self._live.described(landmarks)), self._syntax)
         graph = self._graph("landmarks")
-        texts = [self._syntax.statements(graph, s, p) for s, p in records.landmarks()]
+        told = [self._syntax.lines(graph, s, p) for s, p in records.landmarks()]
         return {
-            each.id: frozenset((texts[2 * i] + texts[2 * i + 1]).splitlines(keepends=True))
-            for i, each in enumerate(landmarks)
+            each.id: frozenset(told[2 * i] + told[2 * i + 1]) for i, each in enumerate(landmarks)
         }
 
     def _by_segment(self, records: Records) -> dict[str, Lines]:
         """Segment -> its statements and those about its classification."""
         found: dict[str, list[str]] = {}
-        segment, name = self._syntax.own("segment")[:-1] + "/", ""
+        graph, name = self._graph("segments"), ""
+        segment = self._syntax.own("segment")[:-1] + "/"
         for subject, properties in records.segments(self._options):
             if subject.startswith(segment):
                 name = subject[len(segment) : -1]
-            text = self._syntax.statements(self._graph("segments"), subject, properties)
-            found.setdefault(name, []).extend(text.splitlines(keepends=True))
+            found.setdefault(name, []).extend(self._syntax.lines(graph, subject, properties))
         return {name: frozenset(lines) for name, lines in found.items()}
 
     def _about_overrides(self) -> Iterator[str]:
         for segment, overrides in self._overrides.items():
             for override in overrides:
-                yield from self._of_override(override)
+                yield from self._of(override)
             if segment not in self._segments:
                 yield from self._snapshots(segment)
 
@@ -179,7 +182,7 @@ class Statements:
         lines = found[-1].snapshot.splitlines(keepends=True) if found else []
         return frozenset(line.replace(f" {own} .\n", f" {other} .\n") for line in lines)
 
-    def _of_override(self, override: Override) -> list[str]:
+    def _of(self, override: Override) -> list[str]:
         s = self._syntax
         operator = s.own("operator", override.operator)
         stated: Properties = [

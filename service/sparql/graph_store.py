@@ -6,6 +6,7 @@ is the name of a graph itself. The default graph is the one without a name, neve
 
 from __future__ import annotations
 
+import asyncio
 from email.message import Message
 from email.parser import BytesParser
 from email.policy import HTTP
@@ -13,6 +14,7 @@ from uuid import uuid4
 
 from fastapi import APIRouter, Request, Response
 
+from symboslam.engine.writers.vocabulary import MAPS
 from symboslam.service.auth import CanQuery, CanUpdate
 from symboslam.service.dependencies import CurrentSettings, CurrentStore
 from symboslam.service.limits import turn
@@ -75,7 +77,7 @@ async def put_graph(
     request: Request, settings: CurrentSettings, store: CurrentStore, _: CanUpdate
 ) -> Response:
     """Make a graph hold what is sent, and nothing else."""
-    graph = _target(request, settings)
+    graph = await _to_write(request, settings)
     documents = await _documents(request, settings, graph)
     with problems_of_the_store():
         new = await store.replace_graph(graph, documents)
@@ -96,7 +98,7 @@ async def post_graph(
         graph: str | None = address(request, settings, f"{PATH}/{uuid4()}")
         headers["Location"] = str(graph)
     else:
-        graph = _target(request, settings)
+        graph = await _to_write(request, settings)
     documents = await _documents(request, settings, graph)
     with problems_of_the_store():
         new = await store.add_to_graph(graph, documents)
@@ -112,7 +114,7 @@ async def delete_graph(
     request: Request, settings: CurrentSettings, store: CurrentStore, _: CanUpdate
 ) -> Response:
     """Remove a graph, or empty the default graph."""
-    graph = _target(request, settings)
+    graph = await _to_write(request, settings)
     with problems_of_the_store():
         await store.drop_graph(graph)
     return Response(status_code=204)
@@ -149,6 +151,21 @@ def _target(request: Request, settings: Settings) -> str | None:
         return absolute_iri(parameters.find("graph") or "", "graph")
     detail = "name one graph, by ?graph=IRI, by ?default or by the path"
     raise Problem(400, "graph-named-twice" if names else "no-graph-named", detail)
+
+
+async def _to_write(request: Request, settings: Settings) -> str | None:
+    """The graph that a request wants to change.
+
+    Raises:
+        Problem: it says what a map is, which the service itself keeps true.
+    """
+    graph = _target(request, settings)
+    if graph is not None and graph.startswith(MAPS):
+        identifier = graph.removeprefix(MAPS).partition("/")[0]
+        if await asyncio.to_thread(request.app.state.maps.records.map, identifier):
+            detail = f"<{graph}> says what map {identifier} is; change the map at /v1/maps"
+            raise Problem(409, "graph-of-a-map", detail)
+    return graph
 
 
 async def _documents(request: Request, settings: Settings, graph: str | None) -> list[Document]:

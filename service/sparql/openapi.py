@@ -128,7 +128,7 @@ PUT_GRAPH: dict[str, Any] = {
     "responses": {
         201: {"description": "The graph is new."},
         204: {"description": "The graph was replaced."},
-        **also(400),
+        **also(400, 409),
     },
     "openapi_extra": {"parameters": [_graph(True)], "requestBody": _GRAPHS},
 }
@@ -136,7 +136,7 @@ POST_GRAPH: dict[str, Any] = {
     "responses": {
         201: {"description": "The graph is new.", "headers": header("Location")},
         204: {"description": "The statements were added."},
-        **also(400),
+        **also(400, 409),
     },
     "openapi_extra": {
         "parameters": [_graph(False)],
@@ -144,6 +144,6 @@ POST_GRAPH: dict[str, Any] = {
     },
 }
 DELETE_GRAPH: dict[str, Any] = {
-    "responses": {204: {"description": "The graph is gone."}, **also(400, 404)},
+    "responses": {204: {"description": "The graph is gone."}, **also(400, 404, 409)},
     "openapi_extra": {"parameters": [_graph(True)]},
 }

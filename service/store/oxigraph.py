@@ -171,11 +171,12 @@ class OxigraphStore(Store):
     async def update(self, text: str, base: str) -> None:
         """Carry out an update.
 
-        A worker tries it first on an empty store: what is nested so deeply that it ends the
-        process ends that one. An update that takes long holds up other writers, not queries.
+        A worker tries it first: what is nested so deeply that it ends the process ends that one.
+        Where it depends on what is there, it is tried on a copy of the store, and stopped at the
+        time limit. An update that takes long holds up other writers, not queries.
         """
-        await self._ask({"kind": "rehearse", "text": text, "base": base}, False, reads=False)
-
+        depends = "where" in text.lower()
+        await self._ask({"kind": "rehearse", "text": text, "base": base}, False, reads=depends)
         await self._write(lambda: self._update(text, base))
 
     async def patch(self, removed: str, added: str) -> None:
@@ -291,9 +292,11 @@ class OxigraphStore(Store):
         return new
 
     def _update(self, text: str, base: str | None) -> None:
+        from symboslam.service.store.geosparql import FUNCTIONS
+
         try:
             with _told():
-                self._open.update(text, base_iri=base)
+                self._open.update(text, base_iri=base, custom_functions=FUNCTIONS)
         except (SyntaxError, ValueError) as error:
             raise QueryError(*place_and_problem(error)) from error
         except RuntimeError as error:  # "The graph ... does not exist", and the like

@@ -14,9 +14,12 @@ import gzip
 import io
 import json
 import os
+import shutil
 import signal
 import sys
 import threading
+from collections.abc import Iterator
+from pathlib import Path
 from typing import IO, Any, cast
 
 import pyoxigraph
@@ -162,6 +165,7 @@ def _query(store: pyoxigraph.Store, request: dict[str, Any], sink: IO[bytes]) ->
             request["text"],
             base_iri=request["base"],
             use_default_graph_as_union=request["union"] and not graphs,
+            custom_functions=_functions(request["text"]),
             **graphs,
         )
     except (SyntaxError, ValueError) as error:
@@ -185,6 +189,15 @@ def _query(store: pyoxigraph.Store, request: dict[str, Any], sink: IO[bytes]) ->
     return {"media_type": media_type}
 
 
+def _functions(text: str) -> dict[Any, Any]:
+    """The functions of ours that a text may call; they take a while to load."""
+    if "geosparql" not in text:
+        return {}
+    from symboslam.service.store.geosparql import FUNCTIONS
+
+    return FUNCTIONS
+
+
 def _graph(store: pyoxigraph.Store, request: dict[str, Any], sink: IO[bytes]) -> dict[str, Any]:
     graph = pyoxigraph.NamedNode(request["graph"]) if request["graph"] else None
     if graph is not None and not store.contains_named_graph(graph):
@@ -200,9 +213,10 @@ def _graph(store: pyoxigraph.Store, request: dict[str, Any], sink: IO[bytes]) ->
 
 
 def _rehearse(request: dict[str, Any]) -> dict[str, Any]:
-    """Try an update on an empty store: does it parse, and does it leave the process alive?
+    """Try an update: does it parse, does it leave the process alive, does it end in time?
 
-    With a quarter of the server's stack, so that what passes here is far from the end of that.
+    On an empty store first, with a quarter of the server's stack, so that what passes here is far
+    from the end of that; then, if there is a snapshot, on a copy of it.
     """
     reply: dict[str, Any] = {"media_type": ""}
 
@@ -213,13 +227,45 @@ def _rehearse(request: dict[str, Any]) -> dict[str, Any]:
             reply.update(_malformed(error))
         except (RuntimeError, OSError):
             pass  # a graph that is not there, or the like; the true store knows better
+        if "error" not in reply and "snapshot" in request:
+            with _copy(Path(request["snapshot"]), Path(request["copy"])) as copy:
+                with contextlib.suppress(RuntimeError):
+                    copy.update(
+                        request["text"],
+                        base_iri=request["base"],
+                        custom_functions=_functions(request["text"]),
+                    )
+
+    failed: list[Exception] = []
+
+    def run() -> None:
+        try:
+            rehearse()
+        except Exception as error:
+            failed.append(error)
 
     before = threading.stack_size(_SMALL_STACK)
-    thread = threading.Thread(target=rehearse)
+    thread = threading.Thread(target=run)
     thread.start()
     threading.stack_size(before)
     thread.join()
+    if failed:
+        raise failed[0]
     return reply
+
+
+@contextlib.contextmanager
+def _copy(snapshot: Path, folder: Path) -> Iterator[pyoxigraph.Store]:
+    """A snapshot that can be written; its tables, which never change, are links."""
+    shutil.rmtree(folder, ignore_errors=True)
+    try:
+        folder.mkdir()
+        for file in snapshot.iterdir():
+            put = os.link if file.suffix == ".sst" else shutil.copyfile
+            put(file, folder / file.name)
+        yield pyoxigraph.Store(str(folder))
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 def _malformed(error: Exception) -> dict[str, Any]:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from symboslam.engine.classify import classify
     from symboslam.engine.environment_map import EnvironmentMap
+    from symboslam.engine.evaluation import Evaluation, evaluate, evaluate_pairs
     from symboslam.engine.explanation import Explanation, Reason
     from symboslam.engine.landmarks import LandmarkMap
     from symboslam.engine.readers import read_landmarks
@@ -28,12 +29,15 @@ __version__ = "0.1.0"
 
 _HOME = {
     "EnvironmentMap": "symboslam.engine.environment_map",
+    "Evaluation": "symboslam.engine.evaluation",
     "Explanation": "symboslam.engine.explanation",
     "Knowledge": "symboslam.reasoning.knowledge",
     "LandmarkMap": "symboslam.engine.landmarks",
     "Reason": "symboslam.engine.explanation",
     "SymboSlamError": "symboslam.errors",
     "classify": "symboslam.engine.classify",
+    "evaluate": "symboslam.engine.evaluation",
+    "evaluate_pairs": "symboslam.engine.evaluation",
     "read_landmarks": "symboslam.engine.readers",
     "scan_pitfalls": "symboslam.reasoning.pitfalls.scan",
     "why": "symboslam.reasoning.why",
@@ -42,12 +46,15 @@ _HOME = {
 
 __all__ = [
     "EnvironmentMap",
+    "Evaluation",
     "Explanation",
     "Knowledge",
     "LandmarkMap",
     "Reason",
     "SymboSlamError",
     "classify",
+    "evaluate",
+    "evaluate_pairs",
     "read_landmarks",
     "scan_pitfalls",
     "why",

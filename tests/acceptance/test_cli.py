@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 import symboslam
+from symboslam.errors import InputError, ReasonerError, ServiceError
 
 SUFFIXES = ("geojson", "ttl", "nq", "png", "html")
 
@@ -81,7 +82,7 @@ def test_explain_reads_what_classify_wrote(
     run: Any, town: Path, tmp_path: Path, suffix: str
 ) -> None:
     geojson, out = tmp_path / "first.geojson", tmp_path / f"map.{suffix}"
-    assert run("classify", town, "--out", geojson, "--out", out).code == 0
+    assert run("classify", town, "--out", geojson, "--out", out, "--cells", 8).code == 0
     features = json.loads(geojson.read_text())["features"]
     home = next(f for f in features if f["properties"]["environment"] == "Residential")
     name = home["properties"]["segment_id"]
@@ -258,3 +259,10 @@ def test_a_reader_that_has_seen_enough_is_no_error(town: Path) -> None:
     )
     assert done.returncode == 0, done.stderr
     assert done.stderr == ""
+
+
+def test_the_help_says_what_exit_codes_mean(run: Any) -> None:
+    assert (ServiceError.exit_code, ReasonerError.exit_code, InputError.exit_code) == (3, 3, 2)
+    told = " ".join(run("--help").out.split())
+    assert "2 bad input, 3 a service or the reasoner is out of reach or has failed" in told
+    assert "internal error" in told

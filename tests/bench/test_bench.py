@@ -17,7 +17,7 @@ def run(*arguments: str) -> subprocess.CompletedProcess[str]:
 
 
 @pytest.mark.parametrize(
-    "case", ["evidence", "classification", "growth", "start-up", "explanations"]
+    "case", ["evidence", "classification", "growth", "start-up", "evaluation", "explanations"]
 )
 def test_each_case_runs_on_toy_sizes(case: str, tmp_path: Path) -> None:
     out = tmp_path / "RESULTS.md"

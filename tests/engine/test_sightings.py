@@ -63,6 +63,25 @@ def test_what_an_agent_calls_it(table: LandmarkTable) -> None:
     assert other_class.id == "a/7"
 
 
+def test_an_id_without_an_agent_is_no_identity(table: LandmarkTable) -> None:
+    merge = Sightings(table, 5.0)
+    one = merge.observe(seen(HOUSE, 10, 10), "1")
+    far = merge.observe(seen(HOUSE, 90, 90), "1")
+    near = merge.observe(seen(HOUSE, 12, 10), "2")
+    owned = merge.observe(seen(HOUSE, 50, 50, agent="a"), "1")
+    assert (one.id, far.id, near.id, owned.id) == ("1", "L1", "1", "a/1")
+    assert (far.x, far.y, far.count) == (90.0, 90.0, 1)
+    assert (near.x, near.count) == (11.0, 2)
+    assert merge.names == {("a", "1"): "a/1"}
+
+
+def test_names_without_an_agent_that_were_kept_count_no_more(table: LandmarkTable) -> None:
+    first = Sightings(table, 5.0)
+    one = first.observe(seen(HOUSE, 10, 10), "1")
+    again = Sightings(table, 5.0, {("", "1"): one.id})
+    assert again.observe(seen(HOUSE, 90, 90), "1").id != one.id
+
+
 def test_the_last_observation_is_the_latest(table: LandmarkTable) -> None:
     merge = Sightings(table, 5.0)
     merge.observe(seen(HOUSE, 10, 10, time=EARLY, agent="a"))

@@ -27,6 +27,8 @@ from symboslam.reasoning.hermit import Hermit, find_java
 from symboslam.reasoning.knowledge import Knowledge
 from symboslam.reasoning.sources import CLOSURE, read_closure
 
+pytestmark = pytest.mark.proof
+
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "ontology"
 CATALOG = FOLDER / "catalog-v001.xml"

@@ -93,6 +93,7 @@ def members(graph: Graph, kind: URIRef) -> Iterator[list[URIRef]]:
         yield [URIRef(str(member)) for member in Collection(graph, listed)]
 
 
+@pytest.mark.proof
 def test_three_robots_and_two_operators_in_one_environment(closure: Graph, swarm: Graph) -> None:
     robots = set(swarm.subjects(RDF.type, SL.EdgeAgent))
     operators = set(swarm.subjects(RDF.type, SL.Operator))
@@ -134,6 +135,7 @@ CLASHES = {
 }  # fmt: skip
 
 
+@pytest.mark.proof
 @pytest.mark.parametrize("added", CLASHES.values(), ids=CLASHES.keys())
 def test_what_must_be_refused(about_teams: Graph, added: str) -> None:
     assert Hermit().clashes([triples(about_teams, added)]) == [True]
@@ -160,6 +162,7 @@ FOLLOWS_NOT = [
 ]
 
 
+@pytest.mark.proof
 def test_what_follows_and_what_does_not(about_teams: Graph) -> None:
     """For each statement: is the class of its subject alone below that of all it holds of?"""
     statements = FOLLOWS + FOLLOWS_NOT

@@ -98,6 +98,7 @@ def test_text(hermit: None, report: Report, resource: Resource) -> None:
     ]  # fmt: skip
 
 
+@pytest.mark.proof
 def test_bundled_ontology_is_clean(hermit: None) -> None:
     report = check_ontology()
     assert report.findings == ()

@@ -8,6 +8,7 @@ import tarfile
 import threading
 from collections.abc import Callable
 from pathlib import Path
+from shutil import copytree
 from typing import Any
 
 import httpx
@@ -15,7 +16,7 @@ import pytest
 from typer.testing import CliRunner
 
 from symboslam.cli.main import app
-from symboslam.errors import InputError, StoreError
+from symboslam.errors import InputError, OutputError, StoreError
 from symboslam.service.backup import back_up, restore, verify
 from symboslam.service.checking import differing
 from tests.service.conftest import ADMIN, TOKEN, MakeService, Service, running
@@ -29,7 +30,10 @@ def quiet(stage: str, share: float) -> None:
 
 
 def make_map(client: httpx.Client, **options: Any) -> str:
-    wanted = {"name": "a map", "bbox": [0, 0, SIDE, SIDE], "crs": "m", **options}
+    wanted = {
+        "name": "a map", "bbox": [0, 0, SIDE, SIDE], "crs": "m", "segmentation": {"cells": 6},
+        **options,
+    }  # fmt: skip
     return str(client.post("/v1/maps", json=wanted, headers=ADMIN).raise_for_status().json()["id"])
 
 
@@ -68,7 +72,7 @@ def fill(service: Service) -> str:
 def symboslam(*arguments: object, **environment: str) -> tuple[int, str]:
     """Exit code and output of the command."""
     result = CliRunner().invoke(app, [str(a) for a in arguments], env=environment)
-    if isinstance(result.exception, InputError | StoreError):
+    if isinstance(result.exception, InputError | OutputError | StoreError):
         return 2, str(result.exception)
     assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
     return result.exit_code, result.output
@@ -191,13 +195,65 @@ def test_who_may(make_service: MakeService, tmp_path: Path) -> None:
     assert "another process" in text
 
 
+@pytest.fixture(scope="module")
+def filled(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a service that was filled; to be copied."""
+    folder = tmp_path_factory.mktemp("filled") / "data"
+    open_again(folder, fill)
+    return folder
+
+
+def test_a_backup_overwrites_nothing(make_service: MakeService, tmp_path: Path) -> None:
+    service = make_service(data=tmp_path / "running")
+    open_again(tmp_path / "data", lambda _: None)
+    sources: list[list[object]] = [[tmp_path / "data"], ["--url", service.url]]
+    for number, what in enumerate(sources):
+        folder = tmp_path / f"new{number}" / "deep"
+        command = ["store", "backup", *what, "--to"]
+        code, text = symboslam(*command, f"{folder}/", SYMBOSLAM_TOKEN=TOKEN)
+        assert code == 0, text
+        (file,) = folder.iterdir()
+        assert file.name.startswith("symboslam-")
+        verify(file, quiet)
+        before = file.read_bytes()
+        code, text = symboslam(*command, file, SYMBOSLAM_TOKEN=TOKEN)
+        assert code == 2
+        assert f"{file} is there already" in text
+        code, text = symboslam(*command, f"{file}/", SYMBOSLAM_TOKEN=TOKEN)
+        assert (code, "cannot be made: File exists" in text) == (2, True), text
+        assert [each.name for each in folder.iterdir()] == [file.name]
+        assert file.read_bytes() == before
+
+
+def test_a_file_that_came_while_a_backup_was_made(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    open_again(tmp_path / "data", lambda _: None)
+    file = tmp_path / "b.tar.gz"
+
+    def came(*arguments: Any) -> Any:
+        file.write_text("another's")
+        return verify(*arguments)
+
+    monkeypatch.setattr("symboslam.service.backup.verify", came)
+    code, text = symboslam("store", "backup", tmp_path / "data", "--to", file)
+    assert (code, "is there already" in text) == (2, True), text
+    assert file.read_text() == "another's"
+    assert sorted(each.name for each in tmp_path.iterdir()) == ["b.tar.gz", "data"]
+
+
 @pytest.fixture
-def archive(tmp_path: Path) -> Path:
+def data(filled: Path, tmp_path: Path) -> Path:
+    """A folder of the test's own with a map and more."""
+    return copytree(filled, tmp_path / "data")
+
+
+@pytest.fixture
+def archive(data: Path, tmp_path: Path) -> Path:
     """A backup of a service with a map."""
-    open_again(tmp_path / "data", fill)
     file = tmp_path / "b.tar.gz"
     with file.open("wb") as target:
-        back_up(tmp_path / "data", target, quiet)
+        back_up(data, target, quiet)
     return file
 
 
@@ -321,19 +377,18 @@ ANY = "?g { ?s ?p ?o }"
         ("DROP ALL", "the graph landmarks is missing, the graph segments is missing"),
     ],
 )  # fmt: skip
-def test_what_the_store_should_not_say(tmp_path: Path, text: str, said: str) -> None:
-    open_again(tmp_path / "data", fill)
-    code, found = symboslam("store", "check", tmp_path / "data")
+def test_what_the_store_should_not_say(data: Path, text: str, said: str) -> None:
+    code, found = symboslam("store", "check", data)
     assert code == 0, found
-    tamper(tmp_path / "data", text)
-    code, found = symboslam("store", "check", tmp_path / "data")
+    tamper(data, text)
+    code, found = symboslam("store", "check", data)
     assert code == 1
     assert said in found
     assert "--repair" in found
-    code, found = symboslam("store", "check", tmp_path / "data", "--repair", "--shapes")
+    code, found = symboslam("store", "check", data, "--repair", "--shapes")
     assert code == 0, found
     assert "repaired: map" in found
-    code, found = symboslam("store", "check", tmp_path / "data")
+    code, found = symboslam("store", "check", data)
     assert code == 0, found
 
 
@@ -357,11 +412,10 @@ def test_a_folder_that_is_none(tmp_path: Path) -> None:
     assert not list(tmp_path.iterdir())
 
 
-def test_records_that_belong_to_no_map(tmp_path: Path) -> None:
-    open_again(tmp_path / "data", fill)
-    with sqlite3.connect(tmp_path / "data" / "service.sqlite3") as database:
+def test_records_that_belong_to_no_map(data: Path) -> None:
+    with sqlite3.connect(data / "service.sqlite3") as database:
         database.execute("INSERT INTO name VALUES ('nowhere', 'a', 'b', 'c')")
     database.close()
-    code, text = symboslam("store", "check", tmp_path / "data")
+    code, text = symboslam("store", "check", data)
     assert code == 1
     assert "1 rows belong to no map" in text

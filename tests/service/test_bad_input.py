@@ -133,6 +133,8 @@ LINES: dict[str, tuple[bytes, str]] = {
     "id with NUL": (line(id="a\0b"), "id"),
     "id of 1000": (line(id="a" * 1000), "id"),
     "id is an object": (line(id={"a": 1}), "id"),
+    "id is infinite": (b'{"id": 1e400, "coordinates": [149.15, -35.25], "class": "House"}', "id"),
+    "agent is a number": (line(agent=5), "agent"),
     "UTF-16": ("\ufeff".encode("utf-16-le") + GOOD.decode().encode("utf-16-le"), "line 1"),
     "Latin-1": ('{"coordinates": [149.15, -35.25], "class": "Caf\xe9"}'.encode("latin-1"), "UTF-8"),
     "deep": (b"[" * 50_000, "line 1"),
@@ -162,6 +164,9 @@ COLLECTIONS: dict[str, tuple[bytes, str]] = {
         b'{"type": "FeatureCollection", "features": [' + b"[" * 99_000, "deep",
     ),
     "UTF-16": (collection(feature()).decode().encode("utf-16"), "body"),
+    "agent is a number": (
+        collection(feature(), feature(properties={"class": "House", "agent": 5})), "feature 1",
+    ),
     "the same name twice": (collection(feature())[:-1] + b', "features": []}', "features"),
 }  # fmt: skip
 
@@ -188,6 +193,38 @@ def test_collections(fed: Service, town: str, name: str) -> None:
         word,
     )
     assert state(fed) == before
+
+
+WRONG_IN_A_LINE: dict[str, tuple[bytes, str]] = {
+    "confidence": (line(confidence=True), "confidence"),
+    "coordinate": (line(coordinates=["149.15", -35.25]), "coordinate"),
+    "swapped": (line(coordinates=HERE[::-1]), "swapped"),
+    "no class": (b'{"coordinates": [149.15, -35.25]}', "class"),
+    "agent": (line(agent=["a"]), "agent"),
+    "agent is a number": (line(agent=5), "agent"),
+    "tags": (line(tags=["a"]), "tags"),
+    "tag": (line(**{"class": "", "tags": {"building": ["a"]}}), "tags"),
+    "time": (line(time="yesterday"), "yesterday"),
+    "id": (line(id={}), "id"),
+    "long id": (line(id="a" * 1000), "id"),
+    "a feature": (json.dumps(feature(geometry=None)).encode(), "geometry"),
+    "unknown member": (line(colour="red"), "colour"),
+    "no JSON": (b'{"coordinates": [1, }', "column 21"),
+    "Latin-1": (b'{"class": "Caf\xe9"}', "UTF-8"),
+}
+
+
+@pytest.mark.parametrize("name", WRONG_IN_A_LINE)
+@pytest.mark.parametrize("end", [b"\n", b"\r\n"], ids=["LF", "CRLF"])
+def test_the_line_is_that_of_the_body(fed: Service, town: str, name: str, end: bytes) -> None:
+    wrong, word = WRONG_IN_A_LINE[name]
+    body = end.join([b"", GOOD, b"  ", b"", GOOD, wrong, b"", GOOD])
+    response = fed.client.post(
+        f"/v1/maps/{town}/observations", content=body, headers={**ADMIN, **NDJSON}
+    )
+    refused(response, "body: line 6", word)
+    assert response.json()["line"] == 6
+    assert "feature" not in response.json()["detail"].replace("not a feature", "")
 
 
 # Address parameters, headers, what the problem says.
@@ -241,6 +278,10 @@ MAPS: dict[str, tuple[Any, str]] = {
     "three numbers": ({"bbox": [1, 2, 3]}, "bbox"),
     "five numbers": ({"bbox": [1, 2, 3, 4, 5]}, "bbox"),
     "no numbers": ({"bbox": ["a", "b", "c", "d"]}, "bbox"),
+    "a number as text": ({"bbox": [149.1, "-35.3", 149.2, -35.2]}, "bbox.1"),
+    "true for a number": ({"bbox": [True, 1, 2, 2]}, "bbox.0"),
+    "true for a radius": ({"merge_radius": True}, "merge_radius"),
+    "a setting as text": ({"settings": {"bandwidth": "50"}}, "bandwidth"),
     "NaN": ({"bbox": [float("nan"), 2, 3, 4]}, "bbox"),
     "infinite": ({"bbox": [float("inf"), 2, 3, 4]}, "bbox"),
     "zero area": ({"bbox": [1, 2, 1, 3]}, "bbox"),
@@ -295,6 +336,58 @@ def test_maps(fed: Service, town: str, name: str) -> None:
 def test_bodies_that_are_no_json(fed: Service, path: str, body: bytes) -> None:
     before = state(fed)
     refused(fed.client.post(path, content=body, headers={**ADMIN, **JSON}), "body")
+    assert state(fed) == before
+
+
+# The body, status, line and column, what the problem says.
+NOT_JSON: dict[str, tuple[bytes, int, int, str]] = {
+    "cut short": (b"{", 1, 2, "property name"),
+    "in the third line": (b'{\n  "name": "a",\n  "bbox": [1, 2,, 3]\n}', 3, 17, "value"),
+    "two values": (b"{}\n{}", 2, 1, "Extra data"),
+    "Latin-1": (b'{\n "n\xc3\xa4me": "\xff"}', 2, 11, "UTF-8"),
+    "nested deeply": (b'{"a":\n' + b"[" * 100_000, 2, 100_000, "nested"),
+    "a number without end": (b'{"a": 1' + b"0" * 9000 + b"}", 1, 7, "digits"),
+}
+
+
+@pytest.mark.parametrize("name", NOT_JSON)
+@pytest.mark.parametrize("path", ["/v1/maps", "/v1/tokens"])
+def test_where_a_body_is_no_json(fed: Service, path: str, name: str) -> None:
+    body, row, column, word = NOT_JSON[name]
+    response = fed.client.post(path, content=body, headers={**ADMIN, **JSON})
+    refused(response, f"body: line {row} column {column}", word)
+    found = response.json()
+    assert (response.status_code, found["line"], found["column"]) == (400, row, column)
+
+
+@pytest.mark.parametrize(
+    ("path", "body"),
+    [
+        ("/v1/maps", b'{"name": "a", "name": "b", "bbox": [149.1, -35.3, 149.2, -35.2]}'),
+        ("/v1/maps", b'{"name": "a", "bbox": [1, 1, 2, 2], "settings": {"name": 1, "name": 2}}'),
+        ("/v1/tokens", b'{"name": "a", "name": "b", "scopes": ["query"]}'),
+    ],
+)
+def test_a_member_that_is_there_twice(fed: Service, path: str, body: bytes) -> None:
+    before = state(fed)
+    response = fed.client.post(path, content=body, headers={**ADMIN, **JSON})
+    refused(response, "'name' twice")
+    assert response.status_code == 422
+    assert state(fed) == before
+
+
+@pytest.mark.parametrize("kind", ["text/plain", "application/x-www-form-urlencoded", None])
+@pytest.mark.parametrize("path", ["/v1/maps", "/v1/tokens"])
+def test_bodies_that_do_not_say_that_they_are_json(
+    fed: Service, path: str, kind: str | None
+) -> None:
+    before = state(fed)
+    body = json.dumps(AREA if path == "/v1/maps" else {"name": "a", "scopes": ["query"]})
+    headers = ADMIN if kind is None else {**ADMIN, "Content-Type": kind}
+    response = fed.client.post(path, content=body, headers=headers)
+    refused(response, "application/json", kind or "Content-Type")
+    assert response.status_code == 415
+    assert response.headers["Accept"] == "application/json"
     assert state(fed) == before
 
 
@@ -360,6 +453,61 @@ def test_parameters(fed: Service, town: str, path: str, word: str) -> None:
     refused(fed.client.get(f"/v1/maps/{town}/{path}"), word)
 
 
+# Method, address, what the problem says.
+UNKNOWN_PARAMETERS = [
+    ("POST", "/v1/maps/{town}/observations?agnet=x", "'agnet'; did you mean agent?"),
+    ("POST", "/v1/maps?name=x", "'name'"),
+    ("POST", "/v1/jobs?name=x&format=csv&boxx=1", "'boxx'; did you mean bbox?"),
+    ("POST", "/v1/tokens?name=x", "'name'"),
+    ("GET", "/v1/tokens?limit=1", "'limit'"),
+    ("GET", "/v1/maps?limt=1", "'limt'; did you mean limit?"),
+    ("GET", "/v1/maps?colour=1", "'colour'; there are: limit, offset"),
+    ("GET", "/v1/maps/{town}?x", "'x': this address takes none"),
+    ("GET", "/v1/maps/{town}/landmarks?feature=House", "'feature'"),
+    ("GET", "/v1/maps/{town}/landmarks?klass=House", "'klass'; did you mean class?"),
+    ("GET", "/v1/maps/{town}/events?last_event_id=1", "'last_event_id'"),
+    ("GET", "/v1/maps/{town}/export?fromat=ttl", "'fromat'; did you mean format?"),
+    ("GET", "/v1/examples?example=1", "'example'"),
+    ("POST", "/v1/backup?to=x", "'to'"),
+    ("DELETE", "/v1/maps/{town}?force=true", "'force'"),
+]
+
+
+@pytest.mark.parametrize(("method", "address", "words"), UNKNOWN_PARAMETERS)
+def test_parameters_that_nothing_declares(
+    fed: Service, town: str, method: str, address: str, words: str
+) -> None:
+    before = state(fed)
+    kind = NDJSON if "observations" in address else JSON
+    body = GOOD if kind is NDJSON else json.dumps(AREA).encode()
+    response = fed.client.request(
+        method, address.format(town=town), content=body, headers={**ADMIN, **kind}
+    )
+    refused(response, words)
+    assert response.status_code == 422
+    assert response.json()["parameter"] in words
+    assert state(fed) == before
+
+
+def test_parameters_that_are_repeated_or_no_text(fed: Service, town: str) -> None:
+    refused(fed.client.get("/v1/maps?limit=1&limit=2"), "'limit'", "2 times")
+    refused(fed.client.get(f"/v1/maps/{town}/landmarks?class=%ff"), "UTF-8")
+
+
+def test_parameters_that_are_declared_are_taken(fed: Service, town: str) -> None:
+    for address in (
+        "landmarks?class=House&limit=5&offset=0", "segments?reasons=2", "export?format=ttl",
+        "export?format=html&reasons=1",
+    ):  # fmt: skip
+        assert fed.client.get(f"/v1/maps/{town}/{address}").status_code == 200, address
+    assert fed.client.get("/v1/maps?limit=1&offset=0").status_code == 200
+    assert fed.client.get("/query?query=ASK%7B%7D&example=maps").status_code == 200
+    with fed.client.stream("GET", f"/v1/maps/{town}/events", headers={"Last-Event-ID": "0"}) as it:
+        assert it.status_code == 200
+        assert it.headers["content-type"].startswith("text/event-stream")
+        assert next(it.iter_lines()).startswith(("event:", "id:", "data:", ":"))
+
+
 @pytest.mark.parametrize(
     ("members", "word"),
     [
@@ -396,6 +544,42 @@ def test_files(fed: Service, parameters: dict[str, str], body: bytes, word: str)
     before = state(fed)
     refused(fed.client.post("/v1/jobs", params=parameters, content=body, headers=ADMIN), word)
     assert state(fed) == before
+
+
+@pytest.mark.parametrize(
+    ("format", "kind"),
+    [
+        ("geojson", "text/csv"), ("csv", "application/geo+json"), ("osm", "application/json"),
+        ("csv", "application/x-www-form-urlencoded"), ("csv", "text/plain"),
+        ("geojson", "multipart/form-data; boundary=x"), ("csv", "text/csv; charset=latin-1"),
+    ],
+)  # fmt: skip
+def test_files_that_are_called_something_else(fed: Service, format: str, kind: str) -> None:
+    before = state(fed)
+    response = fed.client.post(
+        "/v1/jobs", params={"name": "a", "format": format}, content=b"class,x,y\n",
+        headers={**ADMIN, "Content-Type": kind},
+    )  # fmt: skip
+    refused(response, "latin-1" if "latin" in kind else "application/octet-stream")
+    assert response.status_code == 415
+    assert state(fed) == before
+
+
+@pytest.mark.parametrize(
+    "kind", [None, "application/octet-stream", "text/csv", "Text/CSV; charset=UTF-8"]
+)
+def test_files_that_are_called_what_they_are(fed: Service, kind: str | None) -> None:
+    headers = ADMIN if kind is None else {**ADMIN, "Content-Type": kind}
+    response = fed.client.post(
+        "/v1/jobs", params={"name": "good.csv", "format": "csv"},
+        content=b"class,lon,lat\nHouse,149.1,-35.2\nHouse,149.11,-35.21\n", headers=headers,
+    )  # fmt: skip
+    assert response.status_code == 202, response.text
+    job = response.json()
+    while job["state"] == "running":
+        job = fed.client.get(f"/v1/jobs/{job['id']}").json()
+    assert job["state"] == "done", job
+    assert fed.client.delete(f"/v1/maps/{job['map']}", headers=ADMIN).status_code == 204
 
 
 @pytest.mark.parametrize(

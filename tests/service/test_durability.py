@@ -1,6 +1,7 @@
 """A true server process: what was acknowledged survives it, however it ends."""
 
 import os
+import re
 import signal
 import socket
 import subprocess
@@ -13,6 +14,7 @@ import httpx
 import pytest
 
 from symboslam.cli.serve import listen
+from symboslam.errors import InputError
 from tests.service.conftest import ADMIN, TOKEN, UPDATE, MakeService, Service, running
 
 COUNT = {"query": "SELECT (COUNT(*) AS ?n) { GRAPH ?g { ?s <urn:p> ?o } }"}
@@ -142,6 +144,51 @@ def test_the_ontology_is_put_there_once(tmp_path: Path) -> None:
             return int(service.app.state.store.version.partition(".")[2])
 
     assert [writes(), writes()] == [2, 0]
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("file", "file is no folder; take another --data"),
+        ("file/x/y", "cannot be made in {here}/file: Not a directory"),
+        pytest.param(
+            "/proc/x", "/proc/x cannot be made in /proc: it takes no new folders",
+            marks=pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="needs /proc"),
+        ),
+    ],
+)  # fmt: skip
+def test_a_folder_that_cannot_be_made(tmp_path: Path, name: str, told: str) -> None:
+    (tmp_path / "file").write_text("mine")
+    found = subprocess.run(
+        [sys.executable, "-m", "symboslam", "serve", "--data", tmp_path / name, "--port", "0"],
+        check=False, text=True, capture_output=True,
+    )  # fmt: skip
+    assert found.returncode == 2
+    assert told.format(here=tmp_path) in found.stderr
+    assert "damaged" not in found.stderr
+    assert found.stderr.count("\n") == 1
+    assert (tmp_path / "file").read_text() == "mine"
+
+
+@pytest.mark.parametrize(
+    ("host", "told"),
+    [
+        ("999.1.1.1", "--host '999.1.1.1' is no address to listen at"),
+        ("a" * 70, "is no address to listen at"),
+        ("198.51.100.7", "--host '198.51.100.7' is no address of this machine"),
+    ],
+)  # fmt: skip
+def test_hosts_that_are_none(host: str, told: str) -> None:
+    with pytest.raises(InputError, match=re.escape(told)) as error:
+        listen(host, 0)
+    assert "--port" not in str(error.value)
+
+
+def test_a_port_that_is_taken() -> None:
+    with listen("127.0.0.1", 0) as listening:
+        listening.listen()
+        with pytest.raises(InputError, match="take another --port"):
+            listen("127.0.0.1", listening.getsockname()[1])
 
 
 def test_small_packets_are_sent_at_once() -> None:

@@ -189,11 +189,13 @@ HEADERS = {"Content-Type": "application/sparql-query"}
 REFUSED = (200, 204, 400, 403, 413, 422, 429, 503, 504)
 
 
+def updates(served: Served) -> dict[str, int]:
+    return {f"update: {name}": ask(served.url, text, UPDATE) for name, text in UPDATES.items()}
+
+
 def one_by_one(served: Served) -> dict[str, int]:
     found = {name: ask(served.url, text, HEADERS) for name, text in QUERIES.items()}
-    for name, text in UPDATES.items():
-        found[f"update: {name}"] = ask(served.url, text, UPDATE)
-    return found
+    return found | updates(served)
 
 
 def at_once(served: Served) -> dict[str, int]:
@@ -201,14 +203,14 @@ def at_once(served: Served) -> dict[str, int]:
         asked = {
             name: pool.submit(ask, served.url, text, HEADERS) for name, text in QUERIES.items()
         }
-        return {name: future.result() for name, future in asked.items()}
+        return {name: future.result() for name, future in asked.items()} | updates(served)
 
 
 def test_there_are_twenty() -> None:
     assert len(QUERIES) >= 20
 
 
-@pytest.mark.parametrize("how", [one_by_one, at_once])
+@pytest.mark.parametrize("how", [pytest.param(one_by_one, marks=pytest.mark.slow), at_once])
 def test_queries(served: Served, how: Callable[[Served], dict[str, int]]) -> None:
     with a_victim(served) as victim:
         found = how(served)

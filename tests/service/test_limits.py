@@ -9,7 +9,7 @@ from urllib.parse import urlencode
 import pytest
 
 from symboslam.service.store.oxigraph import OxigraphStore
-from tests.service.conftest import TOKEN, MakeService, Service, running
+from tests.service.conftest import TOKEN, UPDATE, MakeService, Service, running
 from tests.service.test_protocol import problem
 
 NUMBERS = " ".join(f"({i})" for i in range(300))
@@ -172,3 +172,15 @@ def test_hostile_updates(limited: Service, name: str) -> None:
     response = limited.update(where)
     assert response.status_code in (204, 400, 422, 504)
     assert limited.values(QUICK) == [["1"]]
+
+
+BOMB = "INSERT { GRAPH <urn:bomb> { <urn:a> <urn:b> ?n } } WHERE { " + KILLER + " }"
+
+
+def test_an_update_that_takes_too_long_is_stopped(limited: Service) -> None:
+    response = limited.client.post("/sparql", content=BOMB, headers=UPDATE)
+    problem(response, 504, "query-timeout")
+    small = "INSERT { GRAPH <urn:small> { <urn:a> <urn:b> ?n } } WHERE { BIND(1 AS ?n) }"
+    assert limited.client.post("/sparql", content=small, headers=UPDATE).status_code == 204
+    assert limited.values("SELECT ?g { GRAPH ?g { <urn:a> <urn:b> ?n } }") == [["urn:small"]]
+    assert not list(store(limited)._settings.data.glob("spool/*.store"))

@@ -33,7 +33,7 @@ SL = "PREFIX sl: <https://w3id.org/symboslam#> PREFIX prov: <http://www.w3.org/n
 @pytest.fixture(scope="module")
 def town() -> dict[str, Any]:
     whole = sample_area(3, 1000.0)
-    return {**whole, "features": whole["features"][::2]}
+    return {**whole, "features": whole["features"][::4]}
 
 
 @pytest.fixture(scope="module")
@@ -124,6 +124,34 @@ def test_a_map_is_made_and_removed(shared: Service) -> None:
         assert shared.client.get("/graphs", params={"graph": base + name}).status_code == 404
 
 
+@pytest.mark.parametrize(
+    ("bbox", "crs"),
+    [
+        ([1, 1, 2, 2], None), ([149.1, -35.3, 149.2, -35.2], "EPSG:4326"), ([0, 5, 600, 700], "m"),
+        ([149.1, -35.3, 0, 149.2, -35.2, 9], "OGC:CRS84"),
+    ],
+)  # fmt: skip
+def test_the_box_comes_back_as_it_was_sent(
+    shared: Service, bbox: list[float], crs: str | None
+) -> None:
+    identifier = make(shared, bbox=bbox, crs=crs)
+    assert get(shared, identifier)["bbox"] == bbox
+    assert [each["bbox"] for each in get(shared, "") if each["id"] == identifier] == [bbox]
+    export = get(shared, f"{identifier}/export")
+    west, south, *_, east, north = export["bbox"]
+    assert west <= bbox[0] < bbox[len(bbox) // 2] <= east
+    assert south <= bbox[1] < bbox[len(bbox) // 2 + 1] <= north
+
+
+def test_a_box_in_another_system_comes_back_in_that_of_the_map(shared: Service) -> None:
+    identifier = make(shared, bbox=[692_000, 6_096_000, 694_000, 6_098_000], crs="EPSG:32755")
+    info = get(shared, identifier)
+    assert info["crs"] == "OGC:CRS84"
+    west, south, east, north = info["bbox"]
+    assert 149.1 < west < east < 149.14
+    assert -35.28 < south < north < -35.24
+
+
 def test_observations_become_landmarks(shared: Service) -> None:
     identifier = make(shared)
     first = send(
@@ -139,6 +167,43 @@ def test_observations_become_landmarks(shared: Service) -> None:
     assert landmarks[0]["geometry"]["coordinates"] == [101.333, 100]
     assert landmarks[0]["properties"]["agent"] == "r2"
     assert get(shared, identifier)["left_out"] == {"unknown Nonsense": 1, "outside": 1}
+
+
+def test_ids_are_those_of_an_agent(shared: Service) -> None:
+    identifier = make(shared, bbox=[0, 0, 2000, 2000])
+    for x in (100, 1100):
+        result = send(shared, identifier, at("House", x, 100, id="1")).json()
+        assert (result["new"], result["merged"]) == (1, 0)
+        assert result["notes"] == [
+            "an id does not say which landmark it is without an agent; name the agent of 1"
+        ]
+    landmarks = get(shared, f"{identifier}/landmarks")["features"]
+    assert [f["geometry"]["coordinates"] for f in landmarks] == [[100, 100], [1100, 100]]
+    assert [f["id"] for f in landmarks] == ["1", "L1"]
+    both = [at("House", 102, 100, id="2"), at("House", 1102, 100, id="3", agent="r2")]
+    mine = send(shared, identifier, *both, agent="r1").json()
+    assert (mine["new"], mine["merged"], mine["notes"]) == (0, 2, [])
+    moved = send(shared, identifier, at("House", 1104, 100, id="2"), agent="r1").json()
+    assert moved["merged"] == 1
+    landmarks = get(shared, f"{identifier}/landmarks")["features"]
+    assert [f["properties"]["observations"] for f in landmarks] == [3, 2]
+
+
+def test_ids_of_two_things_in_a_batch_are_told(shared: Service) -> None:
+    batch = [
+        at("House", 100, 100, id="near"), at("House", 104, 103, id="near"),  # 5 m
+        at("House", 200, 100, id="far"), at("House", 204, 103.1, id="far"),
+        at("House", 300, 100, id="kind"), at("Tree", 300, 100, id="kind"),
+        at("House", 400, 100, id="theirs"), at("House", 400, 500, id="theirs", agent="r2"),
+    ]  # fmt: skip
+    notes = send(shared, make(shared), *batch, agent="r1").json()["notes"]
+    assert notes == [
+        "in one batch there are different classes, or places farther than 5 m apart, under the"
+        " same id: far of r1, kind of r1"
+    ]
+    many = [at("House", 100 + 9 * i, y, id=str(i)) for i in range(7) for y in (100, 200)]
+    notes = send(shared, make(shared), *many, agent="r1").json()["notes"]
+    assert notes[0].endswith("0 of r1, 1 of r1, 2 of r1, 3 of r1, 4 of r1 and 2 more")
 
 
 def test_a_batch_is_taken_once(shared: Service) -> None:
@@ -180,7 +245,7 @@ def test_sparql_sees_what_was_acknowledged(shared: Service) -> None:
 def test_the_same_as_at_one_go(shared: Service, town: dict[str, Any], tmp_path: Path) -> None:
     """However it came about, a map is what classify makes of its landmarks; valid as stated."""
     identifier = make(
-        shared, bbox=town["bbox"], crs=None, merge_radius=0, segmentation={"cells": 12}
+        shared, bbox=town["bbox"], crs=None, merge_radius=0, segmentation={"cells": 8}
     )
     count = push_town(shared, identifier, town)
     info = get(shared, identifier)
@@ -215,7 +280,7 @@ def test_what_is_stated_later_is_what_is_stated_at_once(
 ) -> None:
     """Differences that were sent to the store add up to all statements of the end."""
     service = make_service(rate="")
-    identifier = make(service, bbox=town["bbox"], crs=None)
+    identifier = make(service, bbox=town["bbox"], crs=None, segmentation={"cells": 12})
     push_town(service, identifier, town)
     grown = {name: lines_of(service, identifier, name) for name in GRAPHS}
     one = service.app.state.maps._running[identifier]
@@ -254,7 +319,7 @@ def test_explanations(shared: Service) -> None:
 
 
 def test_overrides_are_statements_of_their_own(shared: Service, tmp_path: Path) -> None:
-    identifier = make(shared)
+    identifier = make(shared, segmentation={"cells": 8})
     send(shared, identifier, at("House", 100, 100))
     segment = get(shared, f"{identifier}/segments")["features"][0]["properties"]["segment_id"]
     path = f"/v1/maps/{identifier}/segments/{segment}/override"
@@ -284,7 +349,7 @@ def test_overrides_are_statements_of_their_own(shared: Service, tmp_path: Path) 
 
 
 def test_an_override_outlives_its_segment(shared: Service, tmp_path: Path) -> None:
-    identifier = make(shared)
+    identifier = make(shared, segmentation={"cells": 8})
     path = f"/v1/maps/{identifier}/segments/0-0-0/override"
     wanted = {"environment": "Military"}
     assert shared.client.put(path, json=wanted, headers=ADMIN).status_code == 200
@@ -330,6 +395,10 @@ def test_a_job_makes_a_map_of_a_file(shared: Service, town: dict[str, Any]) -> N
         bad = shared.client.get(f"/v1/jobs/{bad['id']}").json()
     assert bad["state"] == "failed"
     assert "not valid JSON" in bad["problem"]
+    listed = shared.client.get("/v1/jobs").json()
+    assert [(each["id"], each["state"]) for each in listed[-2:]] == [
+        (job["id"], "done"), (bad["id"], "failed")
+    ]  # fmt: skip
 
 
 def test_events(shared: Service) -> None:
@@ -368,6 +437,19 @@ def test_events(shared: Service) -> None:
     got.clear()
     watch(7, 1)  # who knows of a future that is not ours
     assert got[0][0] == "reset"
+    got.clear()
+    segment = get(shared, f"{identifier}/segments")["features"][0]["properties"]["segment_id"]
+    path = f"/v1/maps/{identifier}/segments/{segment}/override"
+    given = {"environment": "Industrial", "operator": "Ada"}
+    assert shared.client.put(path, json=given, headers=ADMIN).is_success
+    assert shared.client.delete(path, headers=ADMIN).is_success
+    watch(2, 2)
+    told = [(data["segment"], data["override"]) for _, data in got]
+    assert [name for name, _ in told] == [segment, segment]
+    assert [each["environment"].rpartition("#")[2] for _, each in told] == ["Industrial"] * 2
+    assert [(each["operator"], each["undone"]) for _, each in told] == [
+        ("Ada", False), ("Ada", True)
+    ]  # fmt: skip
 
 
 def test_maps_are_there_after_a_restart(

@@ -10,6 +10,7 @@ import typer
 from symboslam.cli import (
     classify,
     cq,
+    evaluate,
     explain,
     ontology,
     pitfalls,
@@ -31,10 +32,12 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
     help="Tell what kind of place each part of a map is, and why.",
-    epilog="Exit codes: 0 done, 1 findings, 2 bad input, 3 internal error.",
+    epilog="Exit codes: 0 done, 1 findings, 2 bad input, "
+    "3 a service or the reasoner is out of reach or has failed, or an internal error.",
 )
 app.command("classify", epilog=classify.EXAMPLES)(classify.classify)
 app.command("explain", epilog=explain.EXAMPLES)(explain.explain)
+app.command("evaluate", epilog=evaluate.EXAMPLES)(evaluate.evaluate)
 app.command("feature", epilog=show.FEATURE_EXAMPLES)(show.feature)
 app.command("environments")(show.environments)
 app.command("sample")(show.sample)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import socket
 import sys
 from contextlib import closing, suppress
@@ -43,7 +44,7 @@ def serve(
         bool, typer.Option("--read-only", help="Let nobody write, whatever their token says.")
     ] = False,
 ) -> None:  # fmt: skip
-    """Serve SPARQL over HTTP until Ctrl-C.
+    """Serve maps that are fed live, and SPARQL, over HTTP until Ctrl-C.
 
     Reading is free; writing needs a token: the one in SYMBOSLAM_ADMIN_TOKEN, or one of
     [bold]symboslam token add[/]. Where there is no administrator's token yet, one is made and
@@ -89,6 +90,10 @@ def listen(host: str, port: int) -> socket.socket:
     """
     try:
         found = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)
+    except (socket.gaierror, UnicodeError) as error:
+        problem = getattr(error, "strerror", None) or "it is no name of a machine"
+        raise InputError(f"--host {host[:80]!r} is no address to listen at: {problem}") from error
+    try:
         kind, _, protocol, _, address = found[0]
         # asyncio sends small packets at once only where the socket says that it is TCP.
         listening = socket.socket(kind, socket.SOCK_STREAM, protocol or socket.IPPROTO_TCP)
@@ -100,6 +105,9 @@ def listen(host: str, port: int) -> socket.socket:
             raise
     except OSError as error:
         problem = error.strerror or error
+        if error.errno == errno.EADDRNOTAVAIL:
+            detail = f"--host {host[:80]!r} is no address of this machine: {problem}"
+            raise InputError(detail) from error
         raise InputError(
             f"cannot listen at {host}:{port}: {problem}; take another --port"
         ) from error
@@ -113,7 +121,7 @@ def _run(settings: Settings, listening: socket.socket, open_: bool) -> None:
 
     from symboslam.service import logs
     from symboslam.service.app import create_app
-    from symboslam.service.database import check_database
+    from symboslam.service.database import check_database, make_folder
     from symboslam.service.server import Server
     from symboslam.service.store.opening import open_store
 
@@ -121,6 +129,7 @@ def _run(settings: Settings, listening: socket.socket, open_: bool) -> None:
     shown = f"[{host}]" if ":" in host else host
     address = settings.public_url or f"http://{shown}:{port}"
     logs.install(settings.log, settings.log_level)
+    make_folder(settings.data)
     check_database(settings.data)  # before anything is written
     status = Console(stderr=True).status("starting: opening the store, loading the ontology ...")
 

@@ -37,7 +37,13 @@ symboslam store check /srv/maps --shapes --repair
 @app.command("backup", epilog=BACKUP_EXAMPLES)
 def backup(
     to: Annotated[
-        Path, typer.Option("--to", metavar="FILE", help="Where to write it: a file or a folder.")
+        str,
+        typer.Option(
+            "--to",
+            metavar="FILE",
+            help="Where to write it: a file that is not there, or a folder; with / at its end it "
+            "is made if needed.",
+        ),
     ],
     data: Annotated[
         Path | None,
@@ -54,7 +60,8 @@ def backup(
 
     Of a server that runs by --url, with an administrator's token; it goes on meanwhile. Of a
     folder otherwise. Hashes of tokens are in the file. Exit code 0: written and read again; 2: a
-    server has the folder open, or something is wrong with it; 3: the service cannot be reached.
+    server has the folder open, something is wrong with it, or the file is there already; 3: the
+    service cannot be reached.
     """
     from symboslam.cli.client import Client
     from symboslam.service.backup import back_up, verify
@@ -62,7 +69,7 @@ def backup(
     if (data is None) == (url is None):
         raise InputError("give the folder of the store, or --url for a server that runs")
     _needs_store()
-    target = to / f"symboslam-{datetime.now():%Y%m%d-%H%M%S}.tar.gz" if to.is_dir() else to
+    target = _target(to)
     with progress_bar() as progress, _beside(target) as new:
         with new.open("xb") as file:
             if url is not None:
@@ -126,12 +133,38 @@ def check(
         raise typer.Exit(1)
 
 
+def _target(to: str) -> Path:
+    """The file to write; in a folder it is named after the time.
+
+    Raises:
+        OutputError: the folder cannot be made.
+        InputError: the file is there already.
+    """
+    target = Path(to)
+    if to.endswith(("/", os.sep)):
+        try:
+            target.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            problem = error.strerror or error
+            raise OutputError(f"the folder {to} cannot be made: {problem}") from error
+    if target.is_dir():
+        target /= f"symboslam-{datetime.now():%Y%m%d-%H%M%S}.tar.gz"
+    _refuse_what_is_there(target)
+    return target
+
+
+def _refuse_what_is_there(target: Path) -> None:
+    if os.path.lexists(target):
+        raise InputError(f"{target} is there already, and is left as it is: name another file")
+
+
 @contextmanager
 def _beside(target: Path) -> Iterator[Path]:
-    """A file that takes the place of another when it was read again without an error."""
+    """A file that gets another's name when it was read again without an error."""
     new = target.with_name(f".{target.name}.{token_hex(6)}")
     try:
         yield new
+        _refuse_what_is_there(target)  # it may have come meanwhile
         new.replace(target)
     except OSError as error:
         raise OutputError(f"{target} cannot be written: {error.strerror or error}") from error
