@@ -5,10 +5,11 @@ The search, for a segment of type A:
 - *Fewer*: greedy. The landmark whose loss brings the segment nearest to the other type goes, with
   its effect worked out exactly, until the type changes or ``MOST`` are gone; then whatever turns
   out not to be needed comes back. Then all smaller sets of the landmarks that have a say are tried,
-  sizes 1, 2, ... as far as ``TRIES`` sets go: a smaller one that is found is taken, and if every
-  smaller set was tried the result is *minimal*, proved.
+  sizes 1, 2, ... as far as ``TRIES`` sets and ``WORK`` go: a smaller one that is found is taken,
+  and if every smaller set was tried the result is *minimal*, proved.
 - *More*: 1, 2, ... up to ``MOST`` sure landmarks of one class in the middle of the segment, for the
-  classes of the map that speak most for another type; minimal for their class and place.
+  classes of the map that speak most for another type; minimal for their class and place. In a
+  segment of so many landmarks that ``WORK`` would be exceeded, fewer classes.
 
 The segment's outline, bandwidth and the evidence of unmarked ground stay what they are.
 """
@@ -39,7 +40,11 @@ MOST = 30
 CANDIDATES = 96
 """Landmarks that the greedy search chooses from: those that speak most for the type."""
 TRIES = 5_000
-"""Sets that the proof of minimality may try."""
+"""Sets that the proof of minimality may try, in a segment of few landmarks."""
+WORK = 250_000
+"""Landmarks, summed over all sets, that each of the three searches may weigh."""
+BLOCK = 100
+"""Sets that the proof weighs at once: neighbours, so that few landmarks differ among them."""
 CLASSES = 12
 """Feature classes that may be added: those that speak most for another type."""
 CLEAR = 1e-12
@@ -188,7 +193,8 @@ class _Search:
         if self._wanted == self._now:
             return None
         found, tried = self._greedy()
-        m, left = len(self._local.landmark), TRIES
+        m = len(self._local.landmark)
+        left = min(TRIES, WORK // max(m, 1))
         most = len(found) if found else min(m, MOST) + 1
         for size in range(1, most):
             if (left := left - comb(m, size)) < 0:
@@ -214,9 +220,10 @@ class _Search:
         order = np.argsort(each[:, rival] - each[:, self._now], kind="stable")
         chosen = order[:CANDIDATES].astype(np.int64)
         q, tried = len(chosen), 0
+        width = max(1, WORK // (MOST * max(len(order), 1)))  # the strongest that are weighed
         gone = np.zeros(q, np.bool_)
         for _ in range(min(q, MOST)):
-            left = np.flatnonzero(~gone)
+            left = np.flatnonzero(~gone)[:width]
             sets = np.repeat(gone[None], len(left), 0)
             sets[np.arange(len(left)), left] = True
             scores = self._scores(self._local.without(chosen, sets))
@@ -238,12 +245,12 @@ class _Search:
     def _exhaustive(self, size: int) -> list[int]:
         """The best of all sets of a size without which the type is another; empty: none is."""
         m = len(self._local.landmark)
-        rows = np.arange(m)
         best, most = [], 0.0
         subsets = combinations(range(m), size)
-        while block := list(islice(subsets, 1000)):
-            sets = np.zeros((len(block), m), np.bool_)
-            sets[np.arange(len(block))[:, None], np.array(block)] = True
+        while block := list(islice(subsets, BLOCK)):
+            rows, columns = np.unique(block, return_inverse=True)
+            sets = np.zeros((len(block), len(rows)), np.bool_)
+            sets[np.arange(len(block))[:, None], columns.reshape(-1, size)] = True
             scores = self._scores(self._local.without(rows, sets))
             if scores.max() > most:
                 best, most = list(block[int(scores.argmax())]), float(scores.max())
@@ -277,5 +284,6 @@ class _Search:
         ]
         present = np.unique(self._map.landmarks.feature)
         lead = (weight[present][:, others] - weight[present][:, [self._now]]).max(1, initial=0)
-        order = np.argsort(-lead, kind="stable")[:CLASSES]
+        most = max(1, min(CLASSES, WORK // (MOST * max(len(self._local.landmark), 1))))
+        order = np.argsort(-lead, kind="stable")[:most]
         yield from present[order[lead[order] > 0]].tolist()

@@ -148,10 +148,15 @@ def _changes(account: Account) -> Iterator[str]:
     if account.counterfactuals is None or account.why is None:
         return
     if not account.counterfactuals:
-        yield "No small change of landmarks was found that would make it something else."
+        yield (
+            "No change of landmarks within the bounds of the search was found that would make it "
+            "something else."
+        )
         return
     yield "It would be something else"
     yield from (f"  {_change(each)}" for each in account.counterfactuals)
+    if not any(each.without for each in account.counterfactuals):
+        yield "That fewer landmarks would do it was not found, within the bounds of the search."
 
 
 def _change(change: Change) -> str:
@@ -163,6 +168,6 @@ def _change(change: Change) -> str:
     proof = (
         "no smaller set does it"
         if change.minimal
-        else f"the smallest set found; {change.tried} were tried"
+        else f"the search ended at its bound after {change.tried} sets: a smaller one may do it too"
     )
     return f"without {taken}: {then}; {proof}."
