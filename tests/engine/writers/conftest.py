@@ -129,7 +129,7 @@ def make_map(
         knowledge=KNOWLEDGE,
         config={"profile": "default", "threshold": 0.95, "cells": 2, "bandwidth": None},
         evidence=NoEvidence(),
-        evidence_cells=Cells(*np.zeros((3, 4), np.int64)),
+        regions=Cells(*np.zeros((3, 4), np.int64)),
     )
     object.__setattr__(made, "given", given or {})
     return made

@@ -218,7 +218,7 @@ def make_map(
         knowledge=knowledge,
         config={"profile": "default", "scheme": "all", "segmentation": "grid", **(config or {})},
         evidence=NoEvidence(),
-        evidence_cells=Cells(*np.zeros((3, s), np.int64)),
+        regions=Cells(*np.zeros((3, s), np.int64)),
     )
     object.__setattr__(made, "parts", parts)
     object.__setattr__(made, "counts", counts)
