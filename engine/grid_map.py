@@ -28,7 +28,9 @@ class GridSegmentation(Segmentation):
     """Cells that are split into quadrants while no environment is certain enough."""
 
     name: ClassVar[str] = "grid"
-    unused: ClassVar[frozenset[str]] = frozenset({"seed_position", "momentum", "reach"})
+    unused: ClassVar[frozenset[str]] = frozenset(
+        {"seed_position", "momentum", "reach", "relevance"}
+    )
 
     def cut(
         self,

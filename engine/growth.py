@@ -23,7 +23,7 @@ FIRST = 3
 TOLERANCE = 1e-12
 """A winning P that is lower by at most this has not fallen: that is rounding."""
 CROWD = 5
-"""The densest spot is the landmark whose neighbour of this rank is nearest."""
+"""How crowded a spot is, the distance to the neighbour of this rank tells."""
 
 
 def grow(
@@ -183,14 +183,16 @@ class Fragment:
 def densest(xy: Floats) -> tuple[float, float]:
     """The densest spot: the landmark whose fifth neighbour is nearest, ties by position.
 
-    Where there are no more than five landmarks, the farthest neighbour counts.
-
     Args:
         xy: (n, 2) positions in metres, at least one.
     """
+    x, y = xy[int(crowding(xy).argmin())].tolist()
+    return x, y
+
+
+def crowding(xy: Floats) -> Floats:
+    """(n,) distance from each landmark to its fifth neighbour, or to the farthest of fewer."""
     from scipy.spatial import cKDTree
 
     rank = min(CROWD + 1, len(xy))  # each is its own first neighbour
-    distance, _ = cKDTree(xy).query(xy, [rank])
-    x, y = xy[int(distance[:, 0].argmin())].tolist()
-    return x, y
+    return np.asarray(cKDTree(xy).query(xy, [rank])[0][:, 0])

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import fields
 from importlib import import_module
 from importlib.metadata import entry_points
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
-from symboslam.engine.environment_map import EnvironmentMap
-from symboslam.engine.landmarks import LandmarkMap
-from symboslam.engine.settings import Settings
 from symboslam.errors import InputError, UnknownNameError
-from symboslam.reasoning.knowledge import Knowledge
+
+if TYPE_CHECKING:  # the names are wanted at start-up, what they stand for is not
+    from symboslam.engine.environment_map import EnvironmentMap
+    from symboslam.engine.landmarks import LandmarkMap
+    from symboslam.engine.settings import Settings
+    from symboslam.reasoning.knowledge import Knowledge
 
 Progress = Callable[[str, float], None]
 GROUP = "symboslam.segmentations"
@@ -67,13 +68,11 @@ def register(segmentation: type[Segmentation]) -> type[Segmentation]:
     """Make a segmentation known under its name; usable as a decorator.
 
     Raises:
-        InputError: its name is taken, or it lists settings as unused that do not exist.
+        InputError: its name is taken.
     """
     name = segmentation.name
     if name in segmentations() and _registered.get(name) is not segmentation:
         raise InputError(f"there is a segmentation {name!r} already")
-    if unknown := segmentation.unused - {f.name for f in fields(Settings)}:
-        raise InputError(f"segmentation {name!r}: no setting {', '.join(sorted(unknown))}")
     _registered[name] = segmentation
     return segmentation
 

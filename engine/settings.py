@@ -36,6 +36,8 @@ class Settings:
         momentum: landmarks that are passed over between fragments (``branch``).
         reach: how far in metres a landmark stands for the ground around it, and how far apart
             neighbours may stand (``branch``); None takes what the map's density suggests.
+        relevance: what a landmark says for an environment counts if it is at least this share of
+            what it says for its strongest one (``branch``), in [0, 1].
     """
 
     profile: str = "default"
@@ -53,6 +55,7 @@ class Settings:
     seed_position: tuple[float, float] | None = None
     momentum: int = 0
     reach: float | None = None
+    relevance: float = 0.5
 
     def __post_init__(self) -> None:
         self._one_of("evidence", "field", "pairs")
@@ -64,6 +67,7 @@ class Settings:
         self._between("threshold", 0, 1)
         self._between("cells", 1, 4_096)
         self._between("min_landmarks", 0, 10**9)
+        self._between("relevance", 0, 1)
         self._between("momentum", 0, 10**9)
         if not isinstance(self.momentum, int):
             raise InputError(f"momentum is {self.momentum}; it must be a whole number")
@@ -82,13 +86,14 @@ class Settings:
 
     def _position(self, name: str) -> None:
         value = getattr(self, name)
-        if not isinstance(value, tuple | list) or len(value) != 2:
-            raise InputError(f"{name} is {value!r}; it must be two numbers, x and y")
-        for number in value:
-            if isinstance(number, bool) or not isinstance(number, int | float):
-                raise InputError(f"{name} is {value!r}; it must be two numbers, x and y")
-            if not math.isfinite(number):
-                raise InputError(f"{name} is {value!r}; both numbers must be finite")
+        good = (
+            isinstance(value, tuple | list)
+            and len(value) == 2
+            and all(isinstance(v, int | float) and not isinstance(v, bool) for v in value)
+            and all(map(math.isfinite, value))
+        )
+        if not good:
+            raise InputError(f"{name} is {value!r}; it must be two finite numbers, x and y")
 
     def _between(self, name: str, low: float, high: float, open_ends: bool = False) -> None:
         value = getattr(self, name)

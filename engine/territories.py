@@ -66,6 +66,13 @@ def _within(cells: NDArray[Any], xy: Floats, reach: float) -> NDArray[np.bool_]:
     return np.asarray(np.maximum.reduceat(distance, np.flatnonzero(np.diff(cell, prepend=-1))) <= reach)
 
 
+def rest_of(box: Box, ground: NDArray[Any]) -> Any:
+    """The ground of a box that is nobody's; empty if there is none worth speaking of."""
+    whole = shapely.box(*box)
+    rest = _polygonal(shapely.difference(whole, shapely.union_all(ground)))
+    return rest if shapely.area(rest) > FINE * shapely.area(whole) else shapely.Polygon()
+
+
 def nearest_ground(xy: Floats, box: Box) -> NDArray[Any]:
     """(n,) the ground nearest to each of distinct positions, out to beyond a box."""
     frame = shapely.buffer(shapely.box(*box), max(box[2] - box[0], box[3] - box[1], 1.0))
