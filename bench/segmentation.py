@@ -1,0 +1,96 @@
+"""Branch segmentation: how it grows with the map, and against a plain transcription."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from bench import reference
+from bench.cases import scatter, side_of
+from bench.measure import call, process, table
+
+_CUT = """
+import json, sys, time
+import scipy.spatial, scipy.sparse.csgraph, sklearn.svm
+from symboslam.engine.classify import classify
+from symboslam.engine.readers import read_landmarks
+from symboslam.reasoning.knowledge import Knowledge
+knowledge = Knowledge.load()
+side = float(sys.argv[2])
+landmarks = read_landmarks(sys.argv[1], knowledge, crs="m", bbox=(0, 0, side, side))
+stages = []
+wall, cpu = time.perf_counter(), time.process_time()
+found = classify(landmarks, knowledge, segmentation="branch")
+wall, cpu = time.perf_counter() - wall, time.process_time() - cpu
+print(json.dumps([wall, cpu, len(found), int(found.landmark_count.max())]))
+"""
+
+
+def segmentation(sizes: Sequence[int], plain_sizes: Sequence[int]) -> str:
+    """Branch segmentation of more and more landmarks, and growth against the plain loops."""
+    return "\n\n".join(
+        [
+            "## Branch segmentation (`--segmentation branch`, `default` profile)",
+            "Landmarks to segments with boundaries, in one process without reading, writing and "
+            "loading of libraries. `times n log n` compares the processor time with the line "
+            "above: 1 is growth by n log n. Peak memory is that of the whole process.",
+            _sizes(sizes),
+            "Growth of the fragments alone against its definition, `bench/reference.py`: P from "
+            "all pairs and the nearest landmark from all landmarks, anew at every step. Processor "
+            "time of both.",
+            _plain(plain_sizes),
+        ]
+    )
+
+
+def _sizes(sizes: Sequence[int]) -> str:
+    rows: list[list[object]] = []
+    before: tuple[int, float] | None = None
+    with tempfile.TemporaryDirectory() as folder:
+        for n in sizes:
+            side, source = side_of(n), Path(folder) / f"{n}.csv"
+            scatter(source, n, side)
+            run = process([sys.executable, "-c", _CUT, str(source), str(side)])
+            wall, cpu, segments, largest = json.loads(run.output.splitlines()[-1])
+            growth = ""
+            if before:
+                expected = n * math.log(n) / (before[0] * math.log(before[0]))
+                growth = f"{cpu / before[1] / expected:.2f}"
+            before = (n, cpu)
+            rows.append(
+                [f"{n:,}", f"{wall:.2f}", f"{cpu:.2f}", f"{segments:,}", f"{largest:,}",
+                 f"{run.peak_mb:.0f}", growth]
+            )  # fmt: skip
+    head = ("landmarks", "seconds", "processor s", "segments", "landmarks of the largest",
+            "peak MB", "times n log n")  # fmt: skip
+    return table(head, rows)
+
+
+def _plain(sizes: Sequence[int]) -> str:
+    from symboslam.engine.growth import densest, grow
+    from symboslam.reasoning.knowledge import Knowledge
+
+    knowledge = Knowledge.load()
+    rows = []
+    for n in sizes:
+        rng = np.random.default_rng(n)
+        xy = rng.uniform(0, side_of(n), (n, 2))
+        names = ("House", "Tree", "Car", "Building", "Factory", "ConvenienceStore")
+        known = [knowledge.index_of(name) for name in names]
+        weight = knowledge.weights("path", None, "entropy")[np.array(known)[rng.integers(0, 6, n)]]
+        points = [(x, y) for x, y in xy.tolist()]
+        start = densest(xy)
+        ours, got = call(grow, xy, weight, 0.5, start, repeat=3, cpu=True)
+        loop, plain = call(reference.grow, points, weight.tolist(), start, cpu=True)
+        rows.append(
+            [f"{n:,}", f"{loop:.2f}", f"{ours * 1000:.0f}", f"{loop / ours:.0f}", len(got),
+             "equal" if got == plain else "different"]
+        )  # fmt: skip
+    head = ("landmarks", "plain s", "engine ms", "times faster", "fragments", "they are")
+    return table(head, rows)
