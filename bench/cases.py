@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import statistics
 import sys
 import tempfile
@@ -215,7 +216,7 @@ def _town(folder: Path, size_m: float) -> Path:
 
 def side_of(n: int) -> float:
     """Side in metres of a map of ``n`` landmarks, in whole coarsest cells."""
-    return CELL_M * max(round(np.sqrt(n / LANDMARKS_PER_KM2) * 1000 / CELL_M / 8), 1) * 8
+    return CELL_M * max(round(math.sqrt(n / LANDMARKS_PER_KM2) * 1000 / CELL_M / 8), 1) * 8
 
 
 def scatter(path: Path, n: int, side: float) -> None:

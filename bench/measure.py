@@ -20,7 +20,8 @@ import symboslam
 Result = TypeVar("Result")
 LAUNCH = Path(__file__).with_name("launch.py")
 PACKAGES = (
-    "numpy", "scipy", "scikit-learn", "shapely", "pyproj", "rdflib", "owlready2", "matplotlib", "typer",
+    "numpy", "scipy", "scikit-learn", "shapely", "pyproj", "rdflib", "owlready2", "matplotlib",
+    "typer",
 )  # fmt: skip
 
 

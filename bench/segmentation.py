@@ -15,6 +15,11 @@ from bench import reference
 from bench.cases import scatter, side_of
 from bench.measure import call, process, table
 
+QUARTERS = ("House", "Factory", "ConvenienceStore", "Tree", "Apartment", "Warehouse")
+"""Classes of which a quarter of the made-up map has one, but for a few strangers."""
+BLOCKS = 5
+"""Quarters along each side."""
+
 _CUT = """
 import json, sys, time
 import scipy.spatial, scipy.sparse.csgraph, sklearn.svm
@@ -43,7 +48,9 @@ def segmentation(sizes: Sequence[int], plain_sizes: Sequence[int]) -> str:
             _sizes(sizes),
             "Growth of the fragments alone against its definition, `bench/reference.py`: P from "
             "all pairs and the nearest landmark from all landmarks, anew at every step. Processor "
-            "time of both.",
+            "time of both. Once on a map of 25 quarters of one class each with 2 % of others among "
+            "them, where fragments grow large, and once on a mixture of all classes, where they "
+            "close after a few landmarks.",
             _plain(plain_sizes),
         ]
     )
@@ -77,20 +84,23 @@ def _plain(sizes: Sequence[int]) -> str:
     from symboslam.reasoning.knowledge import Knowledge
 
     knowledge = Knowledge.load()
+    known = np.array([knowledge.index_of(name) for name in QUARTERS])
+    weights = knowledge.direct()[known]
     rows = []
-    for n in sizes:
-        rng = np.random.default_rng(n)
-        xy = rng.uniform(0, side_of(n), (n, 2))
-        names = ("House", "Tree", "Car", "Building", "Factory", "ConvenienceStore")
-        known = [knowledge.index_of(name) for name in names]
-        weight = knowledge.weights("path", None, "entropy")[np.array(known)[rng.integers(0, 6, n)]]
-        points = [(x, y) for x, y in xy.tolist()]
-        start = densest(xy)
-        ours, got = call(grow, xy, weight, 0.5, start, repeat=3, cpu=True)
-        loop, plain = call(reference.grow, points, weight.tolist(), start, cpu=True)
-        rows.append(
-            [f"{n:,}", f"{loop:.2f}", f"{ours * 1000:.0f}", f"{loop / ours:.0f}", len(got),
-             "equal" if got == plain else "different"]
-        )  # fmt: skip
-    head = ("landmarks", "plain s", "engine ms", "times faster", "fragments", "they are")
+    for kind, mixed in (("quarters", 0.02), ("a mixture", 1.0)):
+        for n in sizes:
+            rng = np.random.default_rng(n)
+            xy = rng.uniform(0, 1, (n, 2))
+            quarter = (xy * BLOCKS).astype(int) @ (1, BLOCKS)
+            feature = np.where(rng.uniform(size=n) < mixed, rng.integers(0, 6, n), quarter % 6)
+            xy *= side_of(n)
+            weight = weights[feature]
+            points, start = [(x, y) for x, y in xy.tolist()], densest(xy)
+            ours, got = call(grow, xy, weight, 0.5, start, repeat=3, cpu=True)
+            loop, plain = call(reference.grow, points, weight.tolist(), start, cpu=True)
+            rows.append(
+                [kind, f"{n:,}", f"{loop:.2f}", f"{ours * 1000:.0f}", f"{loop / ours:.0f}",
+                 len(got), "equal" if got == plain else "different"]
+            )  # fmt: skip
+    head = ("map", "landmarks", "plain s", "engine ms", "times faster", "fragments", "they are")
     return table(head, rows)

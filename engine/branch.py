@@ -62,8 +62,8 @@ class BranchSegmentation(Segmentation):
                 xy, weight, settings.a, start, settings.momentum, part_of(tell, "growing", 0.1, 0.4)
             )
             fragment = np.empty(len(xy), np.int64)
-            for number, members in enumerate(grown):
-                fragment[members] = number
+            for i, members in enumerate(grown):
+                fragment[members] = i
             # 2. What stands at one place belongs together; neighbours of the same type merge.
             tell("merging", 0.4)
             places, place = np.unique(xy, axis=0, return_inverse=True)

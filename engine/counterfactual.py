@@ -14,8 +14,8 @@ def without(
     """P(e) of a segment if these landmarks were not there, computed anew and so exact.
 
     The estimated evidence of unmarked ground stays what it was for the whole map; classifying the
-    reduced landmarks with that ``absence`` gives the same numbers. A fragment stays the same but for
-    these landmarks: it keeps its diagonal.
+    reduced landmarks with that ``absence`` gives the same numbers. A fragment stays the same
+    but for these landmarks: it keeps its diagonal.
 
     Args:
         environment_map: the map.

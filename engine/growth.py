@@ -9,7 +9,10 @@ distance to each member of the fragment, never the distances between all of them
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +25,10 @@ FIRST = 3
 """Landmarks that a fragment begins with."""
 TOLERANCE = 1e-12
 """A winning P that is lower by at most this has not fallen: that is rounding."""
+FEW = 48
+"""Members of a fragment up to which they are gone through one by one."""
+Said: TypeAlias = "list[tuple[int, float]]"
+"""What a landmark says: environments with weights above 0."""
 CROWD = 5
 """How crowded a spot is, the distance to the neighbour of this rank tells."""
 
@@ -48,34 +55,57 @@ def grow(
         The positions of each fragment's landmarks, in the order in which they joined.
     """
     left, fragments = Nearest(xy), []
-    points, rows = xy.tolist(), weight.tolist()
+    points: list[tuple[float, float]] = list(map(tuple, xy.tolist()))
+    said = [[(e, w) for e, w in enumerate(row) if w > 0] for row in weight.tolist()]
     while len(left):
-        fragment = Fragment(weight, a)
+        fragment = Fragment(weight.shape[1], a)
         for first in left.find(*start, FIRST):
-            fragment.add(first, points[first], rows[first])
+            fragment.add(first, points[first], said[first])
             left.take(first)
         while near := left.find(*fragment.centre):
-            if not fragment.grow(near[0], points[near[0]], rows[near[0]]):
+            if not fragment.grow(near[0], points[near[0]], said[near[0]]):
                 break
             left.take(near[0])
         fragments.append(fragment.landmarks)
         tell(1 - len(left) / len(xy))
-        ahead = left.find(*fragment.centre, momentum + 1)
-        if ahead:
-            start = points[ahead[-1]][0], points[ahead[-1]][1]
+        if ahead := left.find(*fragment.centre, momentum + 1):
+            start = points[ahead[-1]]
     return fragments
 
 
-class Fragment:
-    """A growing fragment and what its evidence is made of (design 5).
+@dataclass(frozen=True)
+class Sums:
+    """What the evidence of a fragment follows from.
 
-    For each environment it keeps the number n of members (landmarks that speak for it), the sum of
-    their weights, and the sum over members x of ``w_x`` times the distances to all members; so C
-    follows for any diagonal. Distances matter once two environments have pairs: before, the
-    winning P is 1, or 0 while none has a pair, whatever they are.
+    Attributes:
+        z: its landmarks.
+        box: (min x, min y, max x, max y) around them.
+        members: (K,) landmarks that speak for each environment.
+        weight: (K,) sum of what they say.
+        far: (K,) sum over members x of ``w_x`` times the distances to all members, in metres; kept
+            while it matters.
+    """
+
+    z: int
+    box: tuple[float, float, float, float]
+    members: list[int]
+    weight: list[float]
+    far: list[float]
+
+    @property
+    def paired(self) -> list[int]:
+        """The environments with a pair of members."""
+        return [e for e, n in enumerate(self.members) if n > 1]
+
+
+class Fragment:
+    """A growing fragment (design 5).
+
+    From the sums that it keeps, C follows for any diagonal. Distances matter once two environments
+    have pairs: before, the winning P is 1, or 0 while none has a pair, whatever they are.
 
     Args:
-        weight: (n, K) weights of all landmarks.
+        environments: K, how many there are.
         a: weight of C.
 
     Attributes:
@@ -83,101 +113,134 @@ class Fragment:
         winning: largest P, 0 while there is no pair.
     """
 
-    def __init__(self, weight: Floats, a: float) -> None:
-        k = weight.shape[1]
-        self._a, self._k = a, k
+    def __init__(self, environments: int, a: float) -> None:
+        self._a, self._k = a, environments
         self.landmarks: list[int] = []
         self.winning = 0.0
-        self._sum = [0.0, 0.0]
-        self._box = [np.inf, np.inf, -np.inf, -np.inf]
-        self._count, self._weight, self._far = [0] * k, [0.0] * k, np.zeros(k)
-        self._x, self._y = np.zeros(16), np.zeros(16)
-        self._rows = np.zeros((16, 2 * k))  # members' weights, and 1 where they are above 0
-        self._members = 0
+        self._x = self._y = 0.0
+        nothing = [0.0] * environments
+        box = (math.inf, math.inf, -math.inf, -math.inf)
+        self._sums = Sums(0, box, [0] * environments, nothing, nothing)
+        self._members = Members(environments)
 
     @property
     def centre(self) -> tuple[float, float]:
         """Mean position of the landmarks."""
         z = len(self.landmarks)
-        return self._sum[0] / z, self._sum[1] / z
+        return self._x / z, self._y / z
 
-    def add(self, landmark: int, point: list[float], row: list[float]) -> None:
+    def add(self, landmark: int, point: tuple[float, float], said: Said) -> None:
         """Take a landmark in, whatever it does to P."""
-        far = self._distances(point, row)
-        box, count, total = self._with(point, row)
-        self.winning = self._winning(box, count, total, self._far + far)
-        self._take(landmark, point, row, box, count, total, far)
+        sums = self._with(point, said, distances=True)
+        self._take(landmark, point, said, sums, self._winning(sums))
 
-    def grow(self, landmark: int, point: list[float], row: list[float]) -> bool:
+    def grow(self, landmark: int, point: tuple[float, float], said: Said) -> bool:
         """Take a landmark in if the winning P does not fall; whether it did not."""
-        box, count, total = self._with(point, row)
-        paired = sum(n > 1 for n in count)
-        if paired > 1 and self.winning == 1 and sum(n > 1 for n in self._count) == 1:
-            return False  # a second environment has a pair now, so P is below 1
-        far = self._distances(point, row) if paired > 1 or self._few else np.zeros(self._k)
-        winning = self._winning(box, count, total, self._far + far)
+        before = len(self._sums.paired)
+        sums = self._with(point, said, distances=False)
+        after = len(sums.paired)
+        if before == 1 and after > 1:
+            return False  # P was 1, and a second environment has a pair now
+        if before != 1:
+            sums = self._with(point, said, distances=True)
+        winning = self._winning(sums)
         if winning < self.winning - TOLERANCE:
             return False
-        self.winning = winning
-        self._take(landmark, point, row, box, count, total, far)
+        self._take(landmark, point, said, sums, winning)
         return True
 
-    @property
-    def _few(self) -> bool:
-        """Whether no environment has a pair, so that distances may matter later and are few."""
-        return max(self._count, default=0) < 2
+    def _with(self, point: tuple[float, float], said: Said, distances: bool) -> Sums:
+        """The sums with one landmark more."""
+        (x, y), now = point, self._sums
+        west, south, east, north = now.box
+        members, weight, far = now.members.copy(), now.weight.copy(), now.far.copy()
+        for e, w in said:
+            members[e] += 1
+            weight[e] += w
+        if distances:
+            for (e, w), (near, heavy) in zip(said, self._members.far(x, y, said), strict=True):
+                far[e] += w * near + heavy
+        box = (min(west, x), min(south, y), max(east, x), max(north, y))
+        return Sums(now.z + 1, box, members, weight, far)
 
-    def _with(
-        self, point: list[float], row: list[float]
-    ) -> tuple[list[float], list[int], list[float]]:
-        """The box, the numbers of members and their weights with one landmark more."""
-        x, y = point
-        west, south, east, north = self._box
-        box = [min(west, x), min(south, y), max(east, x), max(north, y)]
-        count = [n + (w > 0) for n, w in zip(self._count, row, strict=True)]
-        total = [s + w for s, w in zip(self._weight, row, strict=True)]
-        return box, count, total
-
-    def _distances(self, point: list[float], row: list[float]) -> Floats:
-        """(K,) what a landmark adds to the sums of weighted distances."""
-        m, k = self._members, self._k
-        dx, dy = self._x[:m] - point[0], self._y[:m] - point[1]
-        sums = np.sqrt(dx * dx + dy * dy) @ self._rows[:m]
-        own = np.array(row)
-        return np.asarray(own * sums[k:] + (own > 0) * sums[:k])
-
-    def _winning(self, box: list[float], count: list[int], total: list[float], far: Floats) -> float:
+    def _winning(self, sums: Sums) -> float:
         """Largest P of a fragment."""
-        z = len(self.landmarks) + 1
-        paired = [e for e, n in enumerate(count) if n > 1]
+        paired = sums.paired
         if len(paired) < 2:
             return float(len(paired))
-        diagonal = float(np.hypot(box[2] - box[0], box[3] - box[1]))
+        diagonal = math.hypot(sums.box[2] - sums.box[0], sums.box[3] - sums.box[1])
+        all_pairs = sums.z * (sums.z - 1)
         largest = everything = 0.0
-        for e, d in zip(paired, far[paired].tolist(), strict=True):
-            n = count[e] * (count[e] - 1)
-            near = total[e] * (count[e] - 1) - (d / diagonal if diagonal > 0 else 0.0)
-            value = self._a * near / n + (1 - self._a) * n / (z * (z - 1))
+        for e in paired:
+            others = sums.members[e] - 1
+            n = sums.members[e] * others
+            near = sums.weight[e] * others - (sums.far[e] / diagonal if diagonal > 0 else 0.0)
+            value = self._a * near / n + (1 - self._a) * n / all_pairs
             largest, everything = max(largest, value), everything + value
         return largest / everything
 
     def _take(
-        self, landmark: int, point: list[float], row: list[float], box: list[float],
-        count: list[int], total: list[float], far: Floats,
-    ) -> None:  # fmt: skip
+        self, landmark: int, point: tuple[float, float], said: Said, sums: Sums, winning: float
+    ) -> None:
         self.landmarks.append(landmark)
-        self._sum[0] += point[0]
-        self._sum[1] += point[1]
-        self._box, self._count, self._weight, self._far = box, count, total, self._far + far
-        if not any(row):
-            return  # speaks for nothing: a landmark of the fragment, but no member
-        m = self._members
-        if m == len(self._x):
-            self._x, self._y = (np.concatenate([v, np.zeros(m)]) for v in (self._x, self._y))
-            self._rows = np.concatenate([self._rows, np.zeros_like(self._rows)])
-        self._x[m], self._y[m] = point
-        self._rows[m, : self._k], self._rows[m, self._k :] = row, np.array(row) > 0
-        self._members = m + 1
+        self._x += point[0]
+        self._y += point[1]
+        self._sums, self.winning = sums, winning
+        if said:  # what speaks for nothing is a landmark of the fragment, but no member
+            self._members.add(*point, said)
+
+
+class Members:
+    """The landmarks of a fragment that speak for anything, and how far they are from a place.
+
+    A few are gone through one by one, which is faster than numpy; many are not.
+
+    Args:
+        environments: K, how many there are.
+    """
+
+    def __init__(self, environments: int) -> None:
+        self._k = environments
+        self._each: list[tuple[float, float, Said]] = []
+        self._xy, self._rows = np.zeros((0, 2)), np.zeros((0, 2 * environments))
+
+    def add(self, x: float, y: float, said: Said) -> None:
+        """One more."""
+        m = len(self._each)
+        self._each.append((x, y, said))
+        if m < FEW:
+            return
+        if m >= len(self._xy):
+            grown = np.zeros((2 * m, 2)), np.zeros((2 * m, 2 * self._k))
+            for i, each in enumerate(self._each[:m]) if m == FEW else ():
+                _put(*grown, i, each)
+            if m > FEW:
+                grown[0][:m], grown[1][:m] = self._xy[:m], self._rows[:m]
+            self._xy, self._rows = grown
+        _put(self._xy, self._rows, m, self._each[m])
+
+    def far(self, x: float, y: float, said: Said) -> list[tuple[float, float]]:
+        """For each environment of ``said``: distances to its members, plain and times weight."""
+        k, m = self._k, len(self._each)
+        if m > FEW:
+            dx, dy = self._xy[:m, 0] - x, self._xy[:m, 1] - y
+            sums = (np.sqrt(dx * dx + dy * dy) @ self._rows[:m]).tolist()
+        else:
+            sums = [0.0] * (2 * k)
+            for other_x, other_y, other_said in self._each:
+                distance = math.hypot(other_x - x, other_y - y)
+                for e, w in other_said:
+                    sums[e] += distance
+                    sums[k + e] += distance * w
+        return [(sums[e], sums[k + e]) for e, _ in said]
+
+
+def _put(xy: Floats, rows: Floats, i: int, member: tuple[float, float, Said]) -> None:
+    """Write a member into row ``i``: 1 for its environments, and what it says for them."""
+    x, y, said = member
+    xy[i], k = (x, y), rows.shape[1] // 2
+    for e, w in said:
+        rows[i, e], rows[i, k + e] = 1.0, w
 
 
 def densest(xy: Floats) -> tuple[float, float]:

@@ -1,4 +1,4 @@
-"""LiveMap: a map cut by grid whose landmarks come, change and go; what they touch is classified anew.
+"""LiveMap: a map cut by grid that is kept up to date as its landmarks come, change and go.
 
 The same evidence and the same cutting as in ``classify``, given the landmarks around the change
 alone. After each change the map is what ``classify`` makes of all its landmarks with the settings

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -25,8 +27,9 @@ class Nearest:
 
     def __init__(self, xy: Floats) -> None:
         self._xy = xy
-        self._left = np.ones(len(xy), bool)
+        self._left = [True] * len(xy)
         self._number = len(xy)
+        self._list: list[tuple[int, float, float]] = []
         self._plant()
 
     def __len__(self) -> int:
@@ -55,19 +58,17 @@ class Nearest:
 
     def _listed(self, x: float, y: float, count: int) -> list[int]:
         """The nearest by the list; nothing if the list does not prove them."""
-        listed = self._list[self._left[self._list]]
-        if len(listed) < count:
+        sure = self._radius - math.hypot(x - self._centre[0], y - self._centre[1])
+        if sure <= 0:
             return []
-        dx, dy = self._xy[listed, 0] - x, self._xy[listed, 1] - y
-        square = dx * dx + dy * dy
-        if count == 1:
-            best = int(square.argmin())
-            farthest, found = square[best], [int(listed[best])]
-        else:
-            order = np.argsort(square, kind="stable")[:count]
-            farthest, found = square[order[-1]], listed[order].tolist()
-        sure = self._radius - np.hypot(x - self._centre[0], y - self._centre[1])
-        return found if np.sqrt(farthest) < sure else []
+        left = self._left
+        near = [
+            ((px - x) * (px - x) + (py - y) * (py - y), i) for i, px, py in self._list if left[i]
+        ]
+        if len(near) < count:
+            return []
+        best = [min(near)] if count == 1 else sorted(near)[:count]
+        return [i for _, i in best] if math.sqrt(best[-1][0]) < sure else []
 
     def _ask(self, x: float, y: float, wanted: int) -> None:
         """Ask the tree for the neighbours of a place."""
@@ -75,13 +76,16 @@ class Nearest:
         distance, near = self._tree.query((x, y), wanted)
         everything = wanted == len(self._planted)
         # Rounding must not make a point outside the list seem farther away than it is.
-        self._radius = np.inf if everything else float(np.max(distance)) * (1 - 1e-12)
+        self._radius = math.inf if everything else float(np.max(distance)) * (1 - 1e-12)
         self._centre = x, y
-        self._list = np.sort(self._planted[np.atleast_1d(near)])
+        listed = self._planted[np.atleast_1d(near)]
+        self._list = [(i, px, py) for i, (px, py) in zip(
+            listed.tolist(), self._xy[listed].tolist(), strict=True) if self._left[i]]  # fmt: skip
 
     def _plant(self) -> None:
         from scipy.spatial import cKDTree
 
-        self._planted = np.flatnonzero(self._left)
+        self._planted = np.flatnonzero(np.array(self._left))
         self._tree = cKDTree(self._xy[self._planted])
-        self._list, self._radius, self._centre = self._planted[:0], 0.0, (0.0, 0.0)
+        self._list = []
+        self._radius, self._centre = 0.0, (0.0, 0.0)

@@ -63,7 +63,8 @@ def _within(cells: NDArray[Any], xy: Floats, reach: float) -> NDArray[np.bool_]:
     """(n,) which cells lie wholly within reach of their positions."""
     corner, cell = shapely.get_coordinates(cells, return_index=True)
     distance = np.hypot(*(corner - xy[cell]).T)
-    return np.asarray(np.maximum.reduceat(distance, np.flatnonzero(np.diff(cell, prepend=-1))) <= reach)
+    farthest = np.maximum.reduceat(distance, np.flatnonzero(np.diff(cell, prepend=-1)))
+    return np.asarray(farthest <= reach)
 
 
 def rest_of(box: Box, ground: NDArray[Any]) -> Any:

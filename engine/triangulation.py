@@ -32,9 +32,10 @@ def delaunay_edges(xy: Floats) -> Ints:
         order = np.argsort(xy @ along, kind="stable")
         edges = np.column_stack([order[:-1], order[1:]])
     else:
-        corners = found.simplices
-        left_out = found.coplanar[:, [0, 2]]  # too near to another to be told apart from it
-        edges = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]], left_out])
+        one, two, three = found.simplices.T
+        left_out, _, nearest = found.coplanar.T  # too near to another to be told apart from it
+        first, second = [one, two, three, left_out], [two, three, one, nearest]
+        edges = np.column_stack([np.concatenate(first), np.concatenate(second)])
     edges = np.unique(np.sort(edges.astype(np.int64), axis=1), axis=0)
     return np.asarray(edges)
 

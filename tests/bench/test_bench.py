@@ -16,7 +16,10 @@ def run(*arguments: str) -> subprocess.CompletedProcess[str]:
     )
 
 
-@pytest.mark.parametrize("case", ["evidence", "classification", "growth", "segmentation", "start-up"])
+CASES = ("evidence", "classification", "growth", "segmentation", "start-up")
+
+
+@pytest.mark.parametrize("case", CASES)
 def test_each_case_runs_on_toy_sizes(case: str, tmp_path: Path) -> None:
     out = tmp_path / "RESULTS.md"
     done = run("-m", "bench", "--tiny", "--only", case, "--out", str(out))

@@ -25,7 +25,7 @@ from symboslam.engine.counterfactual import without
 from symboslam.engine.environment_map import EnvironmentMap
 from symboslam.engine.evidence import pair_evidence
 from symboslam.engine.fragments import FragmentEvidence, Fragments
-from symboslam.engine.growth import TOLERANCE, Fragment, crowding, densest, grow
+from symboslam.engine.growth import TOLERANCE, Fragment, Members, crowding, densest, grow
 from symboslam.engine.nearest import Nearest
 from symboslam.engine.territories import territories
 from symboslam.engine.triangulation import delaunay_edges, pair_lines
@@ -78,9 +78,7 @@ def plain(xy: Floats, weight: Floats, start: tuple[float, float], momentum: int)
     points: list[list[float]] = xy.tolist()
 
     def nearest(x: float, y: float) -> list[int]:
-        return sorted(
-            left, key=lambda i: ((points[i][0] - x) ** 2 + (points[i][1] - y) ** 2, i)
-        )
+        return sorted(left, key=lambda i: ((points[i][0] - x) ** 2 + (points[i][1] - y) ** 2, i))
 
     def centre(members: list[int]) -> tuple[float, float]:
         x, y = (sum(points[i][axis] for i in members) / len(members) for axis in (0, 1))
@@ -120,13 +118,14 @@ def test_the_winning_p_never_falls_and_is_what_a_recomputation_gives(
 ) -> None:
     xy, weight = arrays(points)
     for members in grow(xy, weight, a, densest(xy)):
-        fragment, before = Fragment(weight, a), 0.0
+        fragment, before = Fragment(3, a), 0.0
         for number, landmark in enumerate(members):
-            row = weight[landmark].tolist()
+            said = [(e, float(w)) for e, w in enumerate(weight[landmark]) if w > 0]
+            x, y = xy[landmark].tolist()
             if number < 3:
-                fragment.add(landmark, xy[landmark].tolist(), row)
+                fragment.add(landmark, (x, y), said)
             else:
-                assert fragment.grow(landmark, xy[landmark].tolist(), row)
+                assert fragment.grow(landmark, (x, y), said)
                 assert fragment.winning >= before - TOLERANCE
             before = fragment.winning
             place = xy[members[: number + 1]]
@@ -134,6 +133,20 @@ def test_the_winning_p_never_falls_and_is_what_a_recomputation_gives(
             p, _, _ = pair_evidence(place, weight[members[: number + 1]], diagonal, a)
             expected = p.max() / p.sum() if p.sum() > 0 else 0.0
             assert fragment.winning == pytest.approx(expected, abs=1e-9)
+
+
+def test_few_and_many_members_are_measured_alike() -> None:
+    """Members are gone through one by one up to 48, and by numpy from there on."""
+    rng = np.random.default_rng(1)
+    xy, weight = rng.uniform(0, 100, (130, 2)), WEIGHTS[rng.integers(0, 5, 130)]
+    members = Members(3)
+    for number in range(130):
+        x, y = xy[number].tolist()
+        got = members.far(x, y, [(0, 1.0), (1, 1.0), (2, 1.0)])
+        d, w = np.hypot(*(xy[:number] - xy[number]).T), weight[:number]
+        expected = [((d @ (w > 0))[e], (d @ w)[e]) for e in range(3)]
+        assert np.allclose(got, expected, rtol=1e-12)
+        members.add(x, y, [(e, float(v)) for e, v in enumerate(weight[number]) if v > 0])
 
 
 def test_growth_by_hand() -> None:
@@ -153,7 +166,7 @@ def test_growth_by_hand() -> None:
 
 def test_the_densest_spot_is_where_the_fifth_neighbour_is_nearest() -> None:
     """Of six in a row 3 m apart the two in the middle have their fifth neighbour at 9 m."""
-    crowd = [(100 + 3 * i, 100, 0) for i in range(6)]
+    crowd: Points = [(100.0 + 3 * i, 100.0, 0) for i in range(6)]
     xy, _ = arrays([(10, 10, 0), (60, 10, 0), (60, 90, 0), *crowd])
     assert crowding(xy)[3:].tolist() == [15, 12, 9, 9, 12, 15]
     assert densest(xy) == (106, 100)
@@ -251,7 +264,8 @@ def test_territories_never_overlap_and_hold_their_own(points: Points, reach: flo
     box = (-5.0, -5.0, 245.0, 245.0)
     ground = territories(xy, fragment, reach, box, None)
     assert shapely.is_valid(ground).all()
-    assert shapely.area(shapely.intersection(ground[:, None], ground)[~np.eye(len(ground), dtype=bool)]).max(initial=0) < 1e-3 * reach
+    common = shapely.area(shapely.intersection(ground[:, None], ground))
+    assert common[~np.eye(len(ground), dtype=bool)].max(initial=0) < 1e-3 * reach
     assert (shapely.distance(ground[fragment], shapely.points(xy)) < 1e-4 * reach).all()
     assert shapely.covers(shapely.box(*box).buffer(1e-6), ground).all()
     near = shapely.buffer(shapely.multipoints(xy), reach * 1.0001, quad_segs=64)
@@ -290,7 +304,9 @@ def check(found: EnvironmentMap) -> None:
 
 @HERE
 @given(points=HARD)
-def test_branch_maps(landmarks_at: Callable[..., Any], knowledge: Knowledge, points: Points) -> None:
+def test_branch_maps(
+    landmarks_at: Callable[..., Any], knowledge: Knowledge, points: Points
+) -> None:
     marks = made(landmarks_at, points)
     found = classify(marks, knowledge, segmentation="branch")
     check(found)
@@ -392,9 +408,7 @@ def test_the_configuration_repeats_the_map(
         [(NAMES[c], x, y) for (x, y), c in zip(
             rng.uniform(0, 240, (80, 2)), rng.integers(0, 3, 80), strict=True)]
     )  # fmt: skip
-    found = classify(
-        marks, knowledge, segmentation="branch", seed_position=(200, 30), momentum=2
-    )
+    found = classify(marks, knowledge, segmentation="branch", seed_position=(200, 30), momentum=2)
     assert found.config["momentum"] == 2
     assert found.config["seed_position"] == (200, 30)
     assert found.config["reach"] > 0

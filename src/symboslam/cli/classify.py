@@ -120,9 +120,7 @@ def classify(
     ] = None,
     momentum: Annotated[
         int | None,
-        typer.Option(
-            help="branch: landmarks passed over between fragments.", show_default="0"
-        ),
+        typer.Option(help="branch: landmarks passed over between fragments.", show_default="0"),
     ] = None,
     reach: Annotated[
         float | None,

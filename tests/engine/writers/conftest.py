@@ -135,13 +135,13 @@ def make_map(
     return made
 
 
-class NoEvidence(Evidence):
+class NoEvidence(Evidence[Cells]):
     """Evidence that nobody asks."""
 
     def of(self, cells: Cells) -> Any:
         raise AssertionError
 
-    def settled(self, cells: Cells, evidence: Any) -> Any:
+    def without(self, cells: Cells, landmarks: Sequence[int]) -> Any:
         raise AssertionError
 
     def contributions(self, cells: Cells) -> Any:

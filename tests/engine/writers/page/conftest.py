@@ -116,13 +116,13 @@ class FieldMap(EnvironmentMap):
         return tuple(sorted(found, key=lambda r: -abs(r.contribution.get(winner, 0.0))))
 
 
-class NoEvidence(Evidence):
+class NoEvidence(Evidence[Cells]):
     """Evidence that nobody asks."""
 
     def of(self, cells: Cells) -> Any:
         raise AssertionError
 
-    def settled(self, cells: Cells, evidence: Any) -> Any:
+    def without(self, cells: Cells, landmarks: Sequence[int]) -> Any:
         raise AssertionError
 
     def contributions(self, cells: Cells) -> Any:
