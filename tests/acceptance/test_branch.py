@@ -38,7 +38,9 @@ def test_all_formats_say_the_same(run: Any, small: Path, tmp_path: Path) -> None
     assert sum(s.area for s in shapes) == pytest.approx(whole, rel=1e-4)
     tree = shapely.STRtree(shapes)
     for one, two in zip(*tree.query(shapes, predicate="overlaps"), strict=True):
-        assert shapely.intersection(shapes[one], shapes[two]).area < 1e-7 * whole
+        # Coordinates are rounded to 7 decimals, which can move a border by as much.
+        common = shapely.intersection(shapes[one], shapes[two]).area
+        assert common < 2e-7 * min(shapes[one].length, shapes[two].length)
     config = collection["symboslam"]["config"]
     assert config["segmentation"] == "branch"
     assert config["momentum"] == 0
