@@ -52,9 +52,19 @@ class Parting:
     crossings: Ints
 
     @classmethod
-    def of(cls, xy: Floats, fragment: Ints, reach: float) -> Parting:
-        """The pair lines of fragments of distinct positions, and where they cross."""
-        lines = pair_lines(xy, fragment)
+    def of(cls, xy: Floats, fragment: Ints, reach: float, before: Parting | None = None) -> Parting:
+        """The pair lines of fragments of distinct positions, and where they cross.
+
+        Lines of fragments that are as they were ``before`` are taken over.
+        """
+        if before is None:
+            lines = pair_lines(xy, fragment)
+        else:
+            moved = fragment != before.fragment
+            changed = np.union1d(fragment[moved], before.fragment[moved])
+            here = np.flatnonzero(np.isin(fragment, changed))
+            old = before.lines[~np.isin(before.fragment[before.lines[:, 0]], changed)]
+            lines = np.concatenate([old, here[pair_lines(xy[here], fragment[here])]])
         return cls(fragment, lines, crossings(xy, fragment, lines, reach))
 
 
@@ -89,7 +99,7 @@ def settle(
     now = Parting.of(xy, fragment, reach)
     at_first = max(len(now.crossings), 1)
     while len(now.crossings):
-        after = Parting.of(xy, traded(xy, now), reach)
+        after = Parting.of(xy, traded(xy, now), reach, now)
         if len(after.crossings) >= len(now.crossings):
             return _cut(now)
         now = after

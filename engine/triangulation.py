@@ -36,8 +36,9 @@ def delaunay_edges(xy: Floats) -> Ints:
         left_out, _, nearest = found.coplanar.T  # too near to another to be told apart from it
         first, second = [one, two, three, left_out], [two, three, one, nearest]
         edges = np.column_stack([np.concatenate(first), np.concatenate(second)])
-    edges = np.unique(np.sort(edges.astype(np.int64), axis=1), axis=0)
-    return np.asarray(edges)
+    edges = edges.astype(np.int64)
+    number = np.unique(edges.min(1) * len(xy) + edges.max(1))  # each edge once, in order
+    return np.column_stack(np.divmod(number, len(xy)))
 
 
 def _has_area(xy: Floats) -> bool:

@@ -128,8 +128,7 @@ class Content:
     def outside(self, geometry: NDArray[Any]) -> NDArray[Any]:
         """Geometries in metres -> in the input's coordinates; all corners in one call.
 
-        Where rounding would make a polygon cross itself, corners that come to lie on a side are
-        put into it, and what has no area any more is left out.
+        Where rounding makes a polygon touch or cross itself, it is mended.
         """
         frame = self.map.landmarks.frame
         exact = shapely.transform(geometry, frame.from_metres, interleaved=False)
@@ -137,9 +136,8 @@ class Content:
         jagged = np.flatnonzero(shapely.get_num_coordinates(found) > 5)
         bad = jagged[~shapely.is_valid(found[jagged])]
         if len(bad):
-            mended = shapely.set_precision(exact[bad], 10.0**-self.decimals)
-            left = ~shapely.is_empty(mended)
-            found[bad] = np.where(left, shapely.transform(mended, self._round), exact[bad])
+            mended = shapely.make_valid(found[bad], method="structure", keep_collapsed=False)
+            found[bad] = np.where(shapely.is_empty(mended), exact[bad], mended)
         return np.asarray(shapely.orient_polygons(found))
 
     def _round(self, corners: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -19,7 +19,7 @@ from hypothesis import settings as examples
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from symboslam.engine.boundaries import crossings, settle
+from symboslam.engine.boundaries import Parting, crossings, settle
 from symboslam.engine.classify import classify
 from symboslam.engine.counterfactual import without
 from symboslam.engine.environment_map import EnvironmentMap
@@ -156,7 +156,8 @@ def test_growth_by_hand() -> None:
     (one makes no pair) and the second would: the fragment closes with five. The other two shops,
     nearest to its centre in order, are left.
     """
-    xy, weight = arrays([(x, 0, 0) for x in (0, 1, 2, 3)] + [(x, 0, 1) for x in (10, 11, 12)])
+    houses: Points = [(x, 0, 0) for x in (0, 1, 2, 3)]
+    xy, weight = arrays([*houses, *((x, 0, 1) for x in (10, 11, 12))])
     assert grow(xy, weight, 0.5, (0, 0)) == [[0, 1, 2, 3, 4], [5, 6]]
     # From the middle, the shop at 10 is as near as nothing else: 3, 2, 1 begin.
     assert grow(xy, weight, 0.5, (3, 0))[0] == [3, 2, 1, 0, 4]
@@ -232,6 +233,27 @@ def test_after_the_trades_no_pair_lines_cross(points: Points, parts: int, reach:
             if found[a] != found[c]:
                 one, two = shapely.linestrings([xy[[a, b]], xy[[c, d]]])
                 assert not shapely.intersects(one, two)
+
+
+@HERE
+@given(HARD, st.integers(1, 4))
+def test_lines_taken_over_are_those_made_anew(points: Points, moves: int) -> None:
+    xy = np.unique(np.array(points, float)[:, :2], axis=0)
+    rng = np.random.default_rng(len(xy))
+    fragment = rng.integers(0, 4, len(xy))
+    after = fragment.copy()
+    after[rng.integers(0, len(xy), moves)] = rng.integers(0, 4)
+    kept = Parting.of(xy, after, 200.0, Parting.of(xy, fragment, 200.0))
+    anew = Parting.of(xy, after, 200.0)
+
+    def length(parting: Parting) -> Any:  # where lines are equally long there are several trees
+        return [
+            np.hypot(*(xy[own[:, 0]] - xy[own[:, 1]]).T).sum()
+            for number in range(4)
+            if len(own := parting.lines[parting.fragment[parting.lines[:, 0]] == number])
+        ]
+
+    assert length(kept) == pytest.approx(length(anew))
 
 
 def test_a_crossing_pair_is_parted_by_the_landmarks_around_it() -> None:
