@@ -25,7 +25,7 @@ from symboslam.reasoning.knowledge import Knowledge
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
-SPACINGS = 2.0
+SPACINGS = 1.5
 """Reach, in distances to the fifth neighbour of a landmark in the middle of all."""
 
 
@@ -117,7 +117,7 @@ def part_of(tell: Progress, stage: str, first: float, last: float) -> Callable[[
 def reach_of(xy: Floats, bandwidth: float | None) -> float:
     """Reach in metres, in three digits: from how far apart the landmarks stand.
 
-    Twice the median distance to the fifth neighbour, at least two of the ontology's bandwidths
+    One and a half of the median distance to the fifth neighbour, at least two of the ontology's bandwidths
     (1 m where both are 0): so a landmark in the middle of all is not alone on its ground.
     """
     least = 2 * (bandwidth or 0.0)
