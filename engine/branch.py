@@ -9,7 +9,6 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from symboslam.engine._base import normalised
 from symboslam.engine.boundaries import settle
 from symboslam.engine.environment_map import EnvironmentMap
 from symboslam.engine.fragments import FragmentEvidence, Fragments
@@ -68,7 +67,7 @@ class BranchSegmentation(Segmentation):
             tell("merging", 0.4)
             places, place = np.unique(xy, axis=0, return_inverse=True)
             fragment = _numbered(_owners(fragment, place)[place])
-            label = _labels(evidence.of(Fragments.of(fragment, xy)))
+            label = _labels(evidence.probability(Fragments.of(fragment, xy)))
             home = _merged(places, _owners(fragment, place), label, reach)
             # 3. Where their pair lines cross, landmarks are traded.
             home = settle(places, home, reach, part_of(tell, "parting", 0.5, 0.8))
@@ -79,7 +78,7 @@ class BranchSegmentation(Segmentation):
             ground = territories(places, home, reach, landmarks.bbox, landmarks.surveyed)
         # 5. All other ground is one more segment, of which nothing is known.
         number, ground, regions = _with_the_rest(fragment, ground, landmarks)
-        probability = normalised(evidence.of(regions))
+        probability = evidence.probability(regions)
         probability[number == 0] = 0
         return EnvironmentMap(
             environments=knowledge.scheme(config["scheme"]),
@@ -117,17 +116,17 @@ def part_of(tell: Progress, stage: str, first: float, last: float) -> Callable[[
 def reach_of(xy: Floats, bandwidth: float | None) -> float:
     """Reach in metres, in three digits: from how far apart the landmarks stand.
 
-    One and a half of the median distance to the fifth neighbour, at least two of the ontology's bandwidths
-    (1 m where both are 0): so a landmark in the middle of all is not alone on its ground.
+    One and a half of the median distance to the fifth neighbour, at least two of the ontology's
+    bandwidths (1 m where both are 0): so a landmark in the middle of all is not alone.
     """
     least = 2 * (bandwidth or 0.0)
     spacing = float(np.median(crowding(xy))) if len(xy) > 1 else 0.0
     return float(f"{max(SPACINGS * spacing, least):.3g}") or 1.0
 
 
-def _labels(evidence: Floats) -> Ints:
-    """(m,) the strongest environment of each fragment; -1 where nothing speaks for any."""
-    return np.where(evidence.any(1), evidence.argmax(1), -1)
+def _labels(probability: Floats) -> Ints:
+    """(m,) the most probable environment of each fragment; -1 where nothing speaks for any."""
+    return np.where(probability.any(1), probability.argmax(1), -1)
 
 
 def _owners(fragment: Ints, place: Ints) -> Ints:

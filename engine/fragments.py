@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from symboslam.engine._base import Contributions, Evidence
+from symboslam.engine._base import Contributions, Evidence, normalised
 from symboslam.engine.evidence import pair_parts
 
 Floats = NDArray[np.float64]
@@ -77,6 +77,24 @@ class FragmentEvidence(Evidence[Fragments]):
         for i, parts in enumerate(self.contributions(regions)):
             evidence[i] = parts.total
         return evidence
+
+    def probability(self, regions: Fragments) -> Floats:
+        """(m, K) P of each fragment, or 0 where nothing speaks for any environment.
+
+        Where one environment alone has pairs its P is 1, and no distance is needed to know that.
+        """
+        found = np.zeros((len(regions), self._weight.shape[1]))
+        member = self._weight > 0
+        open_ones = []
+        for i, members in enumerate(regions.members):
+            paired = np.flatnonzero(member[members].sum(0) > 1)
+            if len(paired) == 1:
+                found[i, paired] = 1.0
+            else:
+                open_ones.append(i)
+        rest = np.array(open_ones, np.int64)
+        found[rest] = normalised(self.of(regions.take(rest)))
+        return found
 
     def without(self, regions: Fragments, landmarks: Sequence[int]) -> Floats:
         """(m, K) P~ of each fragment if these landmarks were not there."""

@@ -27,7 +27,7 @@ class Nearest:
 
     def __init__(self, xy: Floats) -> None:
         self._xy = xy
-        self._left = [True] * len(xy)
+        self._left = np.ones(len(xy), bool)
         self._number = len(xy)
         self._list: list[tuple[int, float, float]] = []
         self._plant()
@@ -47,14 +47,9 @@ class Nearest:
         count = min(count, self._number)
         if not count:
             return []
-        wanted = FIRST
-        while True:
-            found = self._listed(x, y, count)
-            if found:
-                return found
-            wanted = max(wanted, 2 * count)
-            self._ask(x, y, wanted)
-            wanted *= 4
+        while not (found := self._listed(x, y, count)):
+            self._ask(x, y, max(FIRST, 2 * count))
+        return found
 
     def _listed(self, x: float, y: float, count: int) -> list[int]:
         """The nearest by the list; nothing if the list does not prove them."""
@@ -71,21 +66,38 @@ class Nearest:
         return [i for _, i in best] if math.sqrt(best[-1][0]) < sure else []
 
     def _ask(self, x: float, y: float, wanted: int) -> None:
-        """Ask the tree for the neighbours of a place."""
-        wanted = min(wanted, len(self._planted))
-        distance, near = self._tree.query((x, y), wanted)
-        everything = wanted == len(self._planted)
+        """List so many neighbours of a place, or all that are left.
+
+        A tree that answers with many that are taken away is made anew: their number is counted,
+        and a new tree costs about as much as having looked at all of its points once.
+        """
+        if self._wasted > len(self._planted):
+            self._plant()
+        asked = wanted
+        while True:
+            asked = min(asked, len(self._planted))
+            distance, near = self._tree.query((x, y), asked)
+            listed = self._planted[np.atleast_1d(near)]
+            left = self._left[listed]
+            fresh = int(np.count_nonzero(left))
+            self._wasted += asked - fresh
+            everything = asked == len(self._planted)
+            if fresh >= wanted or everything:
+                break
+            asked *= 2
+        listed, distance = listed[left][:wanted], np.atleast_1d(distance)[left][:wanted]
         # Rounding must not make a point outside the list seem farther away than it is.
-        self._radius = math.inf if everything else float(np.max(distance)) * (1 - 1e-12)
+        whole = everything and fresh <= wanted
+        self._radius = math.inf if whole else float(distance[-1]) * (1 - 1e-12)
         self._centre = x, y
-        listed = self._planted[np.atleast_1d(near)]
-        self._list = [(i, px, py) for i, (px, py) in zip(
-            listed.tolist(), self._xy[listed].tolist(), strict=True) if self._left[i]]  # fmt: skip
+        places = self._xy[listed].tolist()
+        self._list = [(i, px, py) for i, (px, py) in zip(listed.tolist(), places, strict=True)]
 
     def _plant(self) -> None:
         from scipy.spatial import cKDTree
 
-        self._planted = np.flatnonzero(np.array(self._left))
+        self._wasted = 0
+        self._planted = np.flatnonzero(self._left)
         self._tree = cKDTree(self._xy[self._planted])
         self._list = []
         self._radius, self._centre = 0.0, (0.0, 0.0)

@@ -165,6 +165,16 @@ def test_growth_by_hand() -> None:
     assert grow(xy, weight, 0.5, (0, 0), momentum=1) == [[0, 1, 2, 3, 4], [6, 5]]
 
 
+def test_a_large_fragment_of_one_class_costs_no_distances() -> None:
+    """All of 20,000 houses are one fragment; with every distance this would take minutes."""
+    xy = np.random.default_rng(3).uniform(0, 1000, (20_000, 2))
+    weight = np.tile(WEIGHTS[0], (len(xy), 1))
+    (fragment,) = grow(xy, weight, 0.5, densest(xy))
+    assert sorted(fragment) == list(range(len(xy)))
+    regions = Fragments.of(np.zeros(len(xy), np.int64), xy)
+    assert FragmentEvidence(xy, weight, 0.5).probability(regions).tolist() == [[1, 0, 0]]
+
+
 def test_the_densest_spot_is_where_the_fifth_neighbour_is_nearest() -> None:
     """Of six in a row 3 m apart the two in the middle have their fifth neighbour at 9 m."""
     crowd: Points = [(100.0 + 3 * i, 100.0, 0) for i in range(6)]
