@@ -16,6 +16,7 @@ from bench.pitfalls import pitfalls
 from bench.queries import queries
 from bench.ready import ready
 from bench.reasoning import reasoning
+from bench.segmentation import segmentation
 
 CASES: dict[str, tuple[Callable[[], str], Callable[[], str]]] = {
     # name: (full size, toy size)
@@ -30,6 +31,10 @@ CASES: dict[str, tuple[Callable[[], str], Callable[[], str]]] = {
     "growth": (
         lambda: cases.growth((10_000, 100_000, 1_000_000)),
         lambda: cases.growth((300, 900)),
+    ),
+    "segmentation": (
+        lambda: segmentation((1_000, 10_000, 100_000), (300, 1000, 3000)),
+        lambda: segmentation((300, 900), (60,)),
     ),
     "start-up": (lambda: cases.start_up(11), lambda: cases.start_up(1)),
     "evaluation": (

@@ -130,7 +130,7 @@ def _feature(line: str, number: int) -> dict[str, Any]:
 
 
 def _check_features(document: Any, place_of: geojson.Place) -> None:
-    """What files may lack, or have as a number, has to be right here; the document was read already.
+    """What files may lack, or have as a number, has to be right here; it was read already.
 
     Raises:
         LandmarkError: a feature is not called one, has no properties (RFC 7946, 3.2), or its agent

@@ -516,7 +516,7 @@ def test_what_a_killed_service_did_not_state(make_service: MakeService, tmp_path
         ({"settings": {"bandwidth": "wide"}}, "bandwidth"),
         ({"settings": {"bandwidth": -1}}, "bandwidth"),
         ({"segmentation": {"cells": 1000}}, "cells"),
-        ({"segmentation": {"method": "branch"}}, "method"),
+        ({"segmentation": {"method": "branch"}}, "kept is cut by grid, not by 'branch'"),
         ({"colour": "red"}, "colour"),
         ({"surveyed": {"type": "Point", "coordinates": [1, 1]}}, "surveyed"),
     ],
