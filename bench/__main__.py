@@ -17,6 +17,7 @@ from bench.pitfalls import pitfalls
 from bench.queries import queries
 from bench.ready import ready
 from bench.reasoning import reasoning
+from bench.segmentation import segmentation
 
 CASES: dict[str, tuple[Callable[[], str], Callable[[], str]]] = {
     # name: (full size, toy size)
@@ -33,6 +34,10 @@ CASES: dict[str, tuple[Callable[[], str], Callable[[], str]]] = {
         lambda: cases.growth((300, 900)),
     ),
     "explanations": (lambda: explanations(4000.0, 12), lambda: explanations(1000.0, 60)),
+    "segmentation": (
+        lambda: segmentation((1_000, 10_000, 100_000), (300, 1000, 3000)),
+        lambda: segmentation((300, 900), (60,)),
+    ),
     "start-up": (lambda: cases.start_up(11), lambda: cases.start_up(1)),
     "evaluation": (
         lambda: evaluation((24, 200, 800), 3000),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import statistics
 import sys
 import tempfile
@@ -117,9 +118,9 @@ def growth(sizes: Sequence[int]) -> str:
     before: tuple[int, float] | None = None
     with tempfile.TemporaryDirectory() as folder:
         for n in sizes:
-            side = CELL_M * round(np.sqrt(n / LANDMARKS_PER_KM2) * 1000 / CELL_M / 8) * 8
+            side = side_of(n)
             source, out = Path(folder) / f"{n}.csv", Path(folder) / f"{n}.geojson"
-            _scatter(source, n, side)
+            scatter(source, n, side)
             options = ["--crs", "m", "--bbox", f"0,0,{side},{side}"]
             options += ["--cells", str(round(side / CELL_M))]
             runs = [_classify(source, out, *options) for _ in range(3)]
@@ -213,7 +214,12 @@ def _town(folder: Path, size_m: float) -> Path:
     return path
 
 
-def _scatter(path: Path, n: int, side: float) -> None:
+def side_of(n: int) -> float:
+    """Side in metres of a map of ``n`` landmarks, in whole coarsest cells."""
+    return CELL_M * max(round(math.sqrt(n / LANDMARKS_PER_KM2) * 1000 / CELL_M / 8), 1) * 8
+
+
+def scatter(path: Path, n: int, side: float) -> None:
     """Landmarks in metres as CSV: half of them in towns of 400 m, half anywhere."""
     rng = np.random.default_rng(n)
     xy = rng.uniform(0, side, (n, 2))

@@ -105,3 +105,51 @@ def classify(
             part = [i for i, (r, c) in enumerate(finest) if (r // 8, c // 8) == (row, column)]
             visit(0, row, column, part, [0.0] * environments)
     return found
+
+
+def grow(
+    points: Sequence[Point], weight: Sequence[Row], start: Point, momentum: int = 0, a: float = 0.5
+) -> list[list[int]]:
+    """Fragments by progressive clustering, everything anew at every step.
+
+    Args:
+        points: n positions in metres.
+        weight: n rows of SP(e, x) * f_x.
+        start: where the first fragment begins.
+        momentum: landmarks that are passed over between one fragment and the next.
+        a: weight of C against the share of pairs.
+
+    Returns:
+        The landmarks of each fragment, in the order in which they joined.
+    """
+
+    def winning(members: list[int]) -> float:
+        xs, ys = zip(*(points[i] for i in members), strict=True)
+        diagonal = math.hypot(max(xs) - min(xs), max(ys) - min(ys)) or 1.0
+        p, _, _ = pair_loop([points[i] for i in members], [weight[i] for i in members], diagonal, a)
+        return max(p) / sum(p) if sum(p) else 0.0
+
+    def nearest(to: Point) -> list[int]:
+        def key(i: int) -> tuple[float, int]:
+            return (points[i][0] - to[0]) ** 2 + (points[i][1] - to[1]) ** 2, i
+
+        return sorted(left, key=key)
+
+    def centre(members: list[int]) -> Point:
+        z = len(members)
+        return sum(points[i][0] for i in members) / z, sum(points[i][1] for i in members) / z
+
+    left, fragments = list(range(len(points))), []
+    while left:
+        members = nearest(start)[:3]
+        left = [i for i in left if i not in members]
+        while left:
+            new = nearest(centre(members))[0]
+            if winning([*members, new]) < winning(members) - 1e-12:
+                break
+            members.append(new)
+            left.remove(new)
+        fragments.append(members)
+        if left:
+            start = points[nearest(centre(members))[: momentum + 1][-1]]
+    return fragments

@@ -17,7 +17,7 @@ The segment's outline, bandwidth and the evidence of unmarked ground stay what t
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from itertools import combinations, islice
 from math import comb
 
@@ -26,12 +26,9 @@ import shapely
 from numpy.typing import NDArray
 
 from symboslam.engine._base import normalised
-from symboslam.engine.classify import evidence_of
 from symboslam.engine.environment_map import EnvironmentMap
-from symboslam.engine.grid import Grid
 from symboslam.engine.landmarks import LandmarkMap
 from symboslam.engine.local import LocalEvidence, local_evidence
-from symboslam.engine.settings import Settings
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -82,7 +79,8 @@ def without(
     """P(e) of a segment if these landmarks were not there, computed anew and so exact.
 
     The estimated evidence of unmarked ground stays what it was for the whole map; classifying the
-    reduced landmarks with that ``absence`` gives the same numbers.
+    reduced landmarks with that ``absence`` gives the same numbers. A fragment stays the same
+    but for these landmarks: it keeps its diagonal.
 
     Args:
         environment_map: the map.
@@ -96,16 +94,8 @@ def without(
         UnknownNameError: no such segment.
     """
     i = environment_map.position_of(segment_id)
-    config = environment_map.config
-    settings = Settings(**{f.name: config[f.name] for f in fields(Settings)})
-    evidence = evidence_of(
-        environment_map.landmarks.without(*landmarks),
-        environment_map.knowledge,
-        config["scheme"],
-        Grid(environment_map.landmarks.bbox, settings.cells),
-        settings,
-    )
-    values = evidence.of(environment_map.evidence_cells.take(np.array([i])))
+    region = environment_map.regions.take(np.array([i]))
+    values = environment_map.evidence.without(region, landmarks)
     return {
         e.name: float(p)
         for e, p in zip(environment_map.environments, normalised(values)[0], strict=True)

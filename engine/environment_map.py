@@ -13,11 +13,10 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from symboslam.engine._base import Contributions, Evidence
+from symboslam.engine._base import Contributions, Evidence, Regions
 from symboslam.engine.account import account_of
 from symboslam.engine.chain import Shares, Zoning
 from symboslam.engine.explanation import ClassParts, Explanation, Reason, reasons_of
-from symboslam.engine.grid import Cells
 from symboslam.engine.landmarks import LandmarkMap
 from symboslam.engine.wording import text_of
 from symboslam.errors import UnknownNameError
@@ -30,17 +29,18 @@ class EnvironmentMap:
 
     Attributes:
         environments: the K environment types of the scheme; the order of every K axis.
-        geometry: (s,) shapely polygons in metres of ``landmarks.frame``.
+        geometry: (s,) shapely polygons, or several as one, in metres of ``landmarks.frame``.
         label: (s,) index into ``environments``; -1 = unknown.
         probability: (s, K), rows sum to 1, or are all 0 where unknown.
-        segment_id: (s,) text, unique: depth-row-column of the cell, rows from the south.
+        segment_id: (s,) text, unique: depth-row-column of a cell, rows from the south; b-number
+            of a fragment.
         landmark_count: (s,) landmarks inside.
-        depth: (s,) how often the segment's cell was split.
+        depth: (s,) how often the area was divided to get it; 0 of a fragment.
         landmarks: what was classified.
         knowledge: what it was classified with.
         config: every setting in force, as plain values.
         evidence: what the probabilities were computed from.
-        evidence_cells: (s,) the cells whose evidence each segment has (its own, or a parent's).
+        regions: (s,) the region whose evidence each segment has: its own, or of a cell around it.
     """
 
     environments: tuple[Environment, ...]
@@ -53,8 +53,8 @@ class EnvironmentMap:
     landmarks: LandmarkMap
     knowledge: Knowledge
     config: Mapping[str, Any]
-    evidence: Evidence
-    evidence_cells: Cells
+    evidence: Evidence[Any]
+    regions: Regions
 
     def __len__(self) -> int:
         return len(self.label)
@@ -90,8 +90,8 @@ class EnvironmentMap:
 
     def contributions(self, segments: Sequence[int]) -> Iterator[Contributions]:
         """The landmarks behind each of the segments (positions), in units of P~."""
-        cells = self.evidence_cells.take(np.asarray(segments, np.int64))
-        return self.evidence.contributions(cells)
+        regions = self.regions.take(np.asarray(segments, np.int64))
+        return self.evidence.contributions(regions)
 
     def reasons(
         self, segments: Sequence[int], limit: int | None = None

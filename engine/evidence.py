@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from symboslam.engine._base import Contributions, Evidence, normalised
+from symboslam.engine._base import CellEvidence, Contributions, normalised
 from symboslam.engine.grid import Cells, Grid
 from symboslam.engine.landmarks import LandmarkMap
 from symboslam.engine.settings import Settings
@@ -60,12 +60,12 @@ def pair_evidence(
     Returns:
         (P~ (K,), C (K,), n (K,)): P~ = a C + (1 - a) n / (z (z - 1)); all 0 where z < 2.
     """
-    own, shared, n = _parts(xy, weight, diagonal, a)
+    own, shared, n = pair_parts(xy, weight, diagonal, a)
     c = shared.sum(0) / a
     return own.sum(0) + shared.sum(0), c, n
 
 
-def _parts(
+def pair_parts(
     xy: Floats, weight: Floats, diagonal: float, a: float, near: Floats | None = None
 ) -> tuple[Floats, Floats, Floats]:
     """Each landmark's part of the second and of the first term of P~, both (z, K); and n (K,)."""
@@ -81,7 +81,7 @@ def _parts(
     return own, shared, n
 
 
-class PairEvidence(Evidence):
+class PairEvidence(CellEvidence):
     """Evidence from the pairs of landmarks inside each cell; cells know nothing of each other.
 
     Args:
@@ -142,7 +142,7 @@ class PairEvidence(Evidence):
             self.members(cells), self._diagonals(cells), cells.depth.tolist(), strict=True
         ):
             near = None if self._near is None else self._near[depth][inside]
-            own, shared, _ = _parts(
+            own, shared, _ = pair_parts(
                 xy[inside], weight[inside], float(diagonal), self._settings.a, near
             )
             yield inside, own, shared
@@ -153,6 +153,13 @@ class PairEvidence(Evidence):
         few = count < max(self._settings.min_landmarks, 1)
         sure = normalised(evidence).max(1, initial=0) >= self._settings.threshold
         return np.asarray(few | sure)
+
+    def without(self, cells: Cells, landmarks: Sequence[int]) -> Floats:
+        """(m, K) P~ if these landmarks were not there."""
+        keep = np.ones(len(self._weight), bool)
+        keep[list(landmarks)] = False
+        rest = self._landmarks.take(keep)
+        return PairEvidence(rest, self._weight[keep], self._grid, self._settings).of(cells)
 
     def contributions(self, cells: Cells) -> Iterator[Contributions]:
         """Each landmark's share of the inferences (own) and of C (pairs)."""

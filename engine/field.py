@@ -10,15 +10,15 @@ for. docs/evidence.md tells why.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from symboslam.engine._base import Contributions, Evidence
+from symboslam.engine._base import CellEvidence, Contributions
 from symboslam.engine.density import Density
 from symboslam.engine.grid import Cells, Grid
 from symboslam.engine.landmarks import LandmarkMap
@@ -121,7 +121,7 @@ class Kernels:
         return np.arange(*np.searchsorted(self.columns.first, [start - width + 1, stop]))
 
 
-class FieldEvidence(Evidence):
+class FieldEvidence(CellEvidence):
     """Evidence density over a grid.
 
     Args:
@@ -153,6 +153,8 @@ class FieldEvidence(Evidence):
         absence: Floats,
         denied: Floats | None = None,
     ) -> None:
+        self._landmarks, self._weight, self._settings = landmarks, weight, settings
+        self._site, self._silence = site, absence
         self._xy, self._grid = landmarks.xy, grid
         self.bandwidth = bandwidth
         width = np.maximum(site, bandwidth)
@@ -215,6 +217,17 @@ class FieldEvidence(Evidence):
     def settled(self, cells: Cells, evidence: Floats) -> NDArray[np.bool_]:
         """Where all finest cells inside agree, or the largest P reaches the threshold."""
         return self.density.settled(cells, evidence)
+
+    def without(self, cells: Cells, landmarks: Sequence[int]) -> Floats:
+        """(m, K) P~ if these landmarks were not there; unmarked ground says what it said."""
+        keep = np.ones(len(self._xy), bool)
+        keep[list(landmarks)] = False
+        rest = FieldEvidence(
+            self._landmarks.take(keep), self._weight[keep], self._grid,
+            replace(self._settings, absence=self.absence), self.bandwidth, self._site[keep],
+            self._silence,
+        )  # fmt: skip
+        return rest.of(cells)
 
     def contributions(self, cells: Cells) -> Iterator[Contributions]:
         """Each landmark's weight times its kernel over the cell, less what neighbours deny."""

@@ -1,4 +1,4 @@
-"""LiveMap: a map whose landmarks come, change and go; what they touch is classified anew.
+"""LiveMap: a map cut by grid that is kept up to date as its landmarks come, change and go.
 
 The same evidence and the same cutting as in ``classify``, given the landmarks around the change
 alone. After each change the map is what ``classify`` makes of all its landmarks with the settings
@@ -13,20 +13,19 @@ from typing import Any
 
 import numpy as np
 
-from symboslam.engine._base import Evidence
-from symboslam.engine.classify import (
-    assemble,
-    bandwidth_of,
-    classify,
-    configuration,
-    evidence_of,
-    ground_of,
-    proximity_of,
-)
+from symboslam.engine._base import CellEvidence
+from symboslam.engine.classify import classify
 from symboslam.engine.density import Density
 from symboslam.engine.environment_map import EnvironmentMap
 from symboslam.engine.field import FieldEvidence, crowding_share
 from symboslam.engine.grid import Cells, Grid
+from symboslam.engine.grid_map import (
+    GridSegmentation,
+    assemble,
+    bandwidth_of,
+    evidence_of,
+    ground_of,
+)
 from symboslam.engine.landmarks import LandmarkMap, ReadReport
 from symboslam.engine.live_field import LiveField
 from symboslam.engine.live_pairs import LivePairs
@@ -34,6 +33,7 @@ from symboslam.engine.neighbourhood import Mask, covered
 from symboslam.engine.segmentation import Segments, cut, seen_cells, sums
 from symboslam.engine.settings import settings_of
 from symboslam.engine.table import Landmark, LandmarkTable
+from symboslam.engine.weights import proximity_of
 from symboslam.errors import UnknownNameError
 from symboslam.reasoning.knowledge import Knowledge
 
@@ -117,7 +117,7 @@ class LiveMap:
     @property
     def config(self) -> dict[str, Any]:
         """Every setting in force; ``classify`` with these gives the same map."""
-        return configuration(self._settings, self._scheme)
+        return GridSegmentation().configuration(self._settings, self._scheme)
 
     @property
     def report(self) -> ReadReport:
@@ -247,7 +247,7 @@ class LiveMap:
             everything=everything,
         )
 
-    def _evidence(self, cells: Mask, neighbours: bool = False) -> tuple[LandmarkMap, Evidence]:
+    def _evidence(self, cells: Mask, neighbours: bool = False) -> tuple[LandmarkMap, CellEvidence]:
         """The evidence in some cells, and the landmarks that it is from.
 
         With ``neighbours`` also those that contradict these, or would if one were gone.
@@ -300,7 +300,7 @@ class LiveMap:
         return self._assembled(segments, *self._evidence(cells, neighbours))
 
     def _assembled(
-        self, segments: Segments, landmarks: LandmarkMap, evidence: Evidence
+        self, segments: Segments, landmarks: LandmarkMap, evidence: CellEvidence
     ) -> EnvironmentMap:
         counts = sums(self._grid, self._inside, segments.cells)
         return assemble(

@@ -45,8 +45,7 @@ class LiveField:
         """The rows, and those of the landmarks that may contradict them."""
         if not self._contradicts or not len(rows):
             return rows
-        xy = self._table.xy(rows)
-        return np.union1d(rows, self._around(xy[:, 0], xy[:, 1]))
+        return np.union1d(rows, self._within(self._table.xy(rows)))
 
     def denied(self, rows: Rows) -> Floats:
         """(m, K) for some rows."""

@@ -13,10 +13,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symboslam.engine.classify import proximity_of
 from symboslam.engine.field import CLOSE, FieldEvidence
+from symboslam.engine.fragments import FragmentEvidence, Fragments
 from symboslam.engine.grid import Cells, Grid
 from symboslam.engine.settings import Settings
+from symboslam.engine.weights import proximity_of
 from symboslam.errors import InputError
 
 if TYPE_CHECKING:
@@ -49,18 +50,25 @@ class LocalEvidence(ABC):
 
     def __init__(self, environment_map: EnvironmentMap, position: int) -> None:
         self._map, self._position = environment_map, position
-        self._region = environment_map.evidence_cells.take(np.array([position]))
+        self._region = environment_map.regions.take(np.array([position]))
         parts = next(environment_map.contributions([position]))
         self.landmark, self.own, self.pairs, self.ground = (
             parts.landmark, parts.own, parts.pairs, parts.ground,
         )  # fmt: skip
         config = environment_map.config
-        self._settings = Settings(**{f.name: config[f.name] for f in fields(Settings)})
-        self.proximity = proximity_of(environment_map.knowledge, config["scheme"], self._settings)
+        used = {f.name: config[f.name] for f in fields(Settings) if f.name in config}
+        self._settings = Settings(**used)
+        self.proximity = self._proximity(
+            proximity_of(environment_map.knowledge, config["scheme"], self._settings)
+        )
         self._xy, self._weight = (
             environment_map.landmarks.xy[self.landmark],
             self._weights(self.landmark),
         )
+
+    def _proximity(self, proximity: Floats) -> Floats:
+        """What counts of (F, K) proximities; all, unless a segmentation leaves some out."""
+        return proximity
 
     def _weights(self, landmarks: Ints) -> Floats:
         """(q, K) SP(e, x) I(x) f_x of landmarks of the map."""
@@ -116,7 +124,8 @@ class LocalField(LocalEvidence):
         super().__init__(environment_map, position)
         evidence = environment_map.evidence
         assert isinstance(evidence, FieldEvidence)
-        self._field, self._radius = evidence, CLOSE * evidence.bandwidth
+        assert isinstance(self._region, Cells)
+        self._cell, self._field, self._radius = self._region, evidence, CLOSE * evidence.bandwidth
         self._deny = self._settings.dissimilarity
         self._around = np.maximum(self._evidence_around(self._xy) - self._weight, 0)
 
@@ -164,7 +173,7 @@ class LocalField(LocalEvidence):
         """See the base class."""
         weight, number = self.proximity[feature], counts[:, None]
         site = self._map.knowledge.features[feature].site
-        alone = weight * self._field.of_one(self._region, place, site)
+        alone = weight * self._field.of_one(self._cell, place, site)
         close = self._closeness(place[None])[0][:, None]
         around = self._around + counts[:, None, None] * (close * weight)
         left = self.own * (1 - self._deny * self._denied(around))
@@ -213,7 +222,7 @@ class LocalPairs(LocalEvidence):
         """(q, m) 1 - d between some places and the landmarks."""
         from scipy.spatial.distance import cdist
 
-        return np.asarray(1 - cdist(xy, self._xy) / self._diagonal)
+        return np.asarray(np.maximum(1 - cdist(xy, self._xy) / self._diagonal, 0))
 
     def _evidence(self, c: Floats, size: Floats, z: Floats) -> Floats:
         """P~ from (b, K) sums of w times nearness, (b, K) sizes of S_e and (b, 1) z."""
@@ -250,13 +259,42 @@ class LocalPairs(LocalEvidence):
         return np.asarray(similar * both * (self._settings.a / n if n else 0.0))
 
 
+class LocalFragment(LocalPairs):
+    """The same in a fragment, which keeps its diagonal; one landmark alone counts by itself."""
+
+    def _proximity(self, proximity: Floats) -> Floats:
+        strongest = proximity.max(1, keepdims=True, initial=0)
+        return np.where(proximity < self._settings.relevance * strongest, 0, proximity)
+
+    def _diagonal_behind(self) -> float:
+        assert isinstance(self._region, Fragments)
+        return float(self._region.diagonal[0]) or 1.0  # all in one place: no distance counts
+
+    def _without(self, chosen: Ints, sets: Sets) -> Floats:
+        found, kept = super()._without(chosen, sets), self._kept(chosen, sets)
+        alone = kept.sum(1) == 1
+        found[alone] = kept[alone] @ self._weight
+        return found
+
+    def plus(self, feature: int, place: Floats, counts: Ints) -> Floats:
+        """See the base class."""
+        found = super().plus(feature, place, counts)
+        found[len(self.landmark) + counts == 1] = self.proximity[feature]
+        return found
+
+
 def local_evidence(environment_map: EnvironmentMap, position: int) -> LocalEvidence:
     """The evidence around one segment.
 
     Raises:
         InputError: the map's evidence is of a kind that is not known here.
     """
-    kind = LocalField if isinstance(environment_map.evidence, FieldEvidence) else LocalPairs
+    evidence = environment_map.evidence
+    kind: type[LocalEvidence] = LocalPairs
+    if isinstance(evidence, FieldEvidence):
+        kind = LocalField
+    elif isinstance(evidence, FragmentEvidence):
+        kind = LocalFragment
     found = kind(environment_map, position)
     made = found.without(np.zeros(0, np.int64), np.zeros((1, 0), np.bool_))[0]
     if not np.allclose(made, found.total, rtol=TOLERANCE, atol=TOLERANCE):

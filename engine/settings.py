@@ -31,6 +31,13 @@ class Settings:
         threshold: a cell is split while its largest P is below this.
         min_landmarks: a cell with fewer landmarks is not split (``pairs``).
         empty: what a cell without evidence gets: ``inherit`` its parent's, or ``unknown``.
+        seed_position: where the first fragment begins, in the input's coordinates (``branch``);
+            None takes the densest spot.
+        momentum: landmarks that are passed over between fragments (``branch``).
+        reach: how far in metres a landmark stands for the ground around it, and how far apart
+            neighbours may stand (``branch``); None takes what the map's density suggests.
+        relevance: what a landmark says for an environment counts if it is at least this share of
+            what it says for its strongest one (``branch``), in [0, 1].
     """
 
     profile: str = "default"
@@ -45,6 +52,10 @@ class Settings:
     threshold: float = 0.95
     min_landmarks: int = 3
     empty: str = "inherit"
+    seed_position: tuple[float, float] | None = None
+    momentum: int = 0
+    reach: float | None = None
+    relevance: float = 0.5
 
     def __post_init__(self) -> None:
         self._one_of("evidence", "field", "pairs")
@@ -56,6 +67,14 @@ class Settings:
         self._between("threshold", 0, 1)
         self._between("cells", 1, 4_096)
         self._between("min_landmarks", 0, 10**9)
+        self._between("relevance", 0, 1)
+        self._between("momentum", 0, 10**9)
+        if not isinstance(self.momentum, int):
+            raise InputError(f"momentum is {self.momentum}; it must be a whole number")
+        if self.seed_position is not None:
+            self._position("seed_position")
+        if self.reach is not None:
+            self._between("reach", 0, 1e9, open_ends=True)
         if self.bandwidth is not None:
             self._between("bandwidth", 0, 1e9, open_ends=True)
         if self.absence is not None:
@@ -64,6 +83,17 @@ class Settings:
     def _one_of(self, name: str, *allowed: str) -> None:
         if getattr(self, name) not in allowed:
             raise InputError(f"{name} is {getattr(self, name)!r}; it can be {', '.join(allowed)}")
+
+    def _position(self, name: str) -> None:
+        value = getattr(self, name)
+        good = (
+            isinstance(value, tuple | list)
+            and len(value) == 2
+            and all(isinstance(v, int | float) and not isinstance(v, bool) for v in value)
+            and all(map(math.isfinite, value))
+        )
+        if not good:
+            raise InputError(f"{name} is {value!r}; it must be two finite numbers, x and y")
 
     def _between(self, name: str, low: float, high: float, open_ends: bool = False) -> None:
         value = getattr(self, name)

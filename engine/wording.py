@@ -156,7 +156,7 @@ def _changes(account: Account) -> Iterator[str]:
     yield "It would be something else"
     yield from (f"  {_change(each)}" for each in account.counterfactuals)
     if not any(each.without for each in account.counterfactuals):
-        yield "That fewer landmarks would do it was not found, within the bounds of the search."
+        yield "No landmarks whose loss would do it were found within the bounds of the search."
 
 
 def _change(change: Change) -> str:

@@ -3,7 +3,7 @@
     results.py --benchmark FOLDER [--set dev] [--out docs/results.md]
 
 The folder holds `score_all.py` and sets of areas with their truth; it is no part of the project.
-Both profiles run on every area exactly as a user would run them.
+Both profiles run with both segmentations on every area exactly as a user would run them.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ ROOT = Path(__file__).resolve().parents[1]
 METRICS = {"accuracy": "OA", "kappa": "kappa", "macro_f1": "macro-F1", "mean_iou": "mean IoU",
            "map": "mAP"}  # fmt: skip
 PROFILES = ("default", "paper")
+SEGMENTATIONS = ("grid", "branch")
 KINDS = {"osm": "OpenStreetMap areas", "sim": "simulated areas"}
 INTRO = """# Results
 
@@ -30,7 +31,8 @@ Made by `make results`. Do not edit. {date}, symboslam {version}.
 
 Each area is a file of landmarks; the truth is its real land use (OpenStreetMap areas) or what the
 paper's authors say that they placed (simulated areas). All cells with a truth count; unknown is
-wrong. `program` rows are this program, with no training on any area. The others are the
+wrong. `program` rows are this program, with no training on any area, by profile and segmentation;
+`branch` calls ground unknown that is far from any landmark. The others are the
 benchmark's own baselines: `authors` is the paper's engine on its authors' table, `rf`,
 `rf_balanced` and `nb` were trained on other areas, and `rf_cv` has seen other blocks of the same
 areas. **These are development figures**: the program was built with these areas in view, so
@@ -59,11 +61,16 @@ def score(benchmark: Path, name: str, profile: str) -> dict[str, Any]:
         out = Path(folder) / "scores.json"
         subprocess.run(
             [sys.executable, str(benchmark / "score_all.py"), "--program", wrapped, "--set", name,
-             "--segmentation", "grid", "--json", str(out)],
+             *(f"--segmentation={s}" for s in SEGMENTATIONS), "--json", str(out)],
             check=True,
         )  # fmt: skip
         result: dict[str, Any] = json.loads(out.read_text())
-    failed = [area for area, got in result["areas"].items() if got["grid"]["failed"]]
+    failed = [
+        f"{area} ({s})"
+        for area, got in result["areas"].items()
+        for s in SEGMENTATIONS
+        if got[s]["failed"]
+    ]
     if failed:
         sys.exit(f"profile {profile} failed on {', '.join(failed)}; nothing written")
     return result
@@ -80,7 +87,11 @@ def report(scores: Mapping[str, Any], others: Mapping[str, Any]) -> str:
     from symboslam import __version__
 
     parts = [INTRO.format(date=f"{datetime.now(UTC):%Y-%m-%d}", version=__version__)]
-    pooled = {f"**program, {p}**": s["pooled"]["grid"] for p, s in scores.items()} | dict(others)
+    pooled = {
+        f"**program, {p}, {s}**": got["pooled"][s]
+        for p, got in scores.items()
+        for s in SEGMENTATIONS
+    } | dict(others)
     for kind, words in KINDS.items():
         rows = {name: got[kind] for name, got in pooled.items() if kind in got}
         if not rows:
@@ -89,13 +100,15 @@ def report(scores: Mapping[str, Any], others: Mapping[str, Any]) -> str:
         parts.append(overall("program or baseline", rows))
         parts.append("F1 of each environment type (number of truth cells in the head):")
         parts.append(by_class(rows))
-    parts.append("## Area by area, `default` profile")
-    parts.append(
-        overall("area", {n: got["grid"]["score"] for n, got in scores["default"]["areas"].items()})
-    )
+    areas = scores["default"]["areas"]
+    for s in SEGMENTATIONS:
+        parts.append(f"## Area by area, `default` profile, {s}")
+        parts.append(overall("area", {n: got[s]["score"] for n, got in areas.items()}))
     parts.append("Seconds are whole processes, from landmarks to GeoJSON.")
-    seconds = {n: got["grid"]["seconds"] for n, got in scores["default"]["areas"].items()}
-    parts.append(table(["area", "seconds"], [[n, f"{s:.2f}"] for n, s in seconds.items()]))
+    seconds = [
+        [n, *(f"{got[s]['seconds']:.2f}" for s in SEGMENTATIONS)] for n, got in areas.items()
+    ]
+    parts.append(table(["area", *SEGMENTATIONS], seconds))
     return "\n\n".join(parts) + "\n"
 
 

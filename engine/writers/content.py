@@ -165,17 +165,22 @@ class Content:
         return min(max(fine + 5, 7) if self.map.landmarks.frame.geographic else max(fine, 3), 15)
 
     def outside(self, geometry: NDArray[Any]) -> NDArray[Any]:
-        """Geometries in metres -> in the input's coordinates; all corners in one call."""
+        """Geometries in metres -> in the input's coordinates; all corners in one call.
 
-        def transform(x: NDArray[np.float64], y: NDArray[np.float64]) -> Any:
-            return [
-                np.round(axis, self.decimals) + 0.0  # never -0
-                for axis in self.map.landmarks.frame.from_metres(x, y)
-            ]
+        Where rounding makes a polygon touch or cross itself, it is mended.
+        """
+        frame = self.map.landmarks.frame
+        exact = shapely.transform(geometry, frame.from_metres, interleaved=False)
+        found = shapely.transform(exact, self._round)
+        jagged = np.flatnonzero(shapely.get_num_coordinates(found) > 5)
+        bad = jagged[~shapely.is_valid(found[jagged])]
+        if len(bad):
+            mended = shapely.make_valid(found[bad], method="structure", keep_collapsed=False)
+            found[bad] = np.where(shapely.is_empty(mended), exact[bad], mended)
+        return np.asarray(shapely.orient_polygons(found))
 
-        return np.asarray(
-            shapely.orient_polygons(shapely.transform(geometry, transform, interleaved=False))
-        )
+    def _round(self, corners: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.round(corners, self.decimals) + 0.0  # never -0
 
     @cached_property
     def bbox(self) -> tuple[float, float, float, float]:

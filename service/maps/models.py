@@ -5,7 +5,7 @@ from __future__ import annotations
 from datetime import datetime
 from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, field_validator
 
 from symboslam.engine.account import Change, Difference, LandmarkPart, PairPart, Side
 from symboslam.reasoning.knowledge import Indication
@@ -20,7 +20,10 @@ class Segmentation(BaseModel):
 
     model_config = _STRICT
 
-    method: Literal["grid"] = "grid"
+    method: Literal["grid"] = Field(
+        default="grid",
+        description="A map that is kept is cut by grid; `symboslam classify` knows others.",
+    )
     cells: int | None = Field(
         default=None, ge=1, le=192, description="Finest cells along each side."
     )
@@ -29,6 +32,16 @@ class Segmentation(BaseModel):
     )
     min_landmarks: int | None = Field(default=None, ge=0, le=10**9)
     empty: Literal["inherit", "unknown"] | None = None
+
+    @field_validator("method", mode="before")
+    @classmethod
+    def _can_be_kept(cls, method: Any) -> Any:
+        if isinstance(method, str) and method != "grid":
+            raise ValueError(
+                f"a map that is kept is cut by grid, not by {method[:40]!r}: a fragment may change "
+                "as a whole with any landmark; `symboslam classify` cuts files in other ways"
+            )
+        return method
 
 
 class Settings(BaseModel):

@@ -67,7 +67,7 @@ def read(
         raise LandmarkError("it is not UTF-8 text", source="body", where=where) from error
     document, place_of = _lines(text) if media_type == NDJSON else _document(text)
     columns = geojson.from_object(document, "body", knowledge, place_of)
-    _check_agents(document, place_of)
+    _check_features(document, place_of)
     names = [str(name or "") for name in columns.id or [""] * len(columns)]
     check_ids(columns)
     found = place(columns, knowledge, area, crs)
@@ -129,17 +129,24 @@ def _feature(line: str, number: int) -> dict[str, Any]:
     }
 
 
-def _check_agents(document: Any, place_of: geojson.Place) -> None:
-    """Agents are texts, though files may have numbers there; the document was read already.
+def _check_features(document: Any, place_of: geojson.Place) -> None:
+    """What files may lack, or have as a number, has to be right here; it was read already.
 
     Raises:
-        LandmarkError: the first that is not.
+        LandmarkError: a feature is not called one, has no properties (RFC 7946, 3.2), or its agent
+            is no text; names the first.
     """
     for row, feature in enumerate(document["features"]):
         agent = (feature.get("properties") or {}).get("agent")
-        if agent is not None and not isinstance(agent, str):
+        if feature.get("type") != "Feature":
+            problem = f"its type is {str(feature.get('type'))[:60]!r}, not 'Feature'"
+        elif feature.get("properties") is None:
+            problem = "it has no properties"
+        elif agent is not None and not isinstance(agent, str):
             problem = f"its agent is {str(agent)[:60]}, not text"
-            raise LandmarkError(problem, source="body", where=place_of(row))
+        else:
+            continue
+        raise LandmarkError(problem, source="body", where=place_of(row))
 
 
 def notes_on_ids(landmarks: Iterable[tuple[Landmark, str]], radius: float) -> list[str]:

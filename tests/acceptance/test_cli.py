@@ -107,7 +107,9 @@ def test_explain_reads_what_classify_wrote(
 def explained(town: Path, tmp_path: Path) -> tuple[Path, str]:
     """A map of the town and one of its segments, a residential one."""
     out = tmp_path / "explained.geojson"
-    symboslam.classify(symboslam.read_landmarks(town), cells=8).write(out)
+    knowledge = symboslam.Knowledge.load()
+    found = symboslam.classify(symboslam.read_landmarks(town, knowledge), knowledge, cells=8)
+    symboslam.write_map(found, out)
     return out, next(
         f["properties"]["segment_id"]
         for f in json.loads(out.read_text())["features"]

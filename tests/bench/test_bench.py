@@ -16,9 +16,18 @@ def run(*arguments: str) -> subprocess.CompletedProcess[str]:
     )
 
 
-@pytest.mark.parametrize(
-    "case", ["evidence", "classification", "growth", "start-up", "evaluation", "explanations"]
+CASES = (
+    "evidence",
+    "classification",
+    "growth",
+    "segmentation",
+    "start-up",
+    "evaluation",
+    "explanations",
 )
+
+
+@pytest.mark.parametrize("case", CASES)
 def test_each_case_runs_on_toy_sizes(case: str, tmp_path: Path) -> None:
     out = tmp_path / "RESULTS.md"
     done = run("-m", "bench", "--tiny", "--only", case, "--out", str(out))
@@ -30,6 +39,7 @@ def test_each_case_runs_on_toy_sizes(case: str, tmp_path: Path) -> None:
         differences = [float(d) for d in re.findall(r"\d(?:\.\d+)?e-\d\d|\b0e\+00", text)]
         assert differences  # the engine agrees with the plain loops
         assert max(differences) < 1e-12
+    assert "different" not in text.replace("difference", "")
 
 
 @pytest.mark.slow

@@ -77,7 +77,7 @@ def test_removals_in_a_town(profile: str) -> None:
             again = classify(
                 found.landmarks.without(position), found.knowledge, **dict(found.config)
             )
-            values = again.evidence.of(found.evidence_cells.take(np.array([i])))
+            values = again.evidence.of(found.regions.take(np.array([i])))
             p = normalised(values)[0, label]
             assert mark.without == pytest.approx(float(p), abs=1e-12)
 
@@ -97,8 +97,27 @@ def test_additions_change_p_by_what_is_said(
         for n, values in zip((1, 3), said, strict=True):
             more = area([*rows, *[(kind, *place.tolist(), 1.0)] * n])
             again = classify(more, bundled, **dict(found.config))
-            anew = again.evidence.of(found.evidence_cells.take(np.array([i])))[0]
+            anew = again.evidence.of(found.regions.take(np.array([i])))[0]
             assert values.tolist() == pytest.approx(anew.tolist(), rel=1e-9, abs=1e-12)
+
+
+def test_fragments_are_weighed_anew_like_cells(bundled: Knowledge) -> None:
+    marks = read_landmarks(sample_area(7, 1000.0), bundled)
+    found = classify(marks, bundled, segmentation="branch")
+    changed = 0
+    for i in np.flatnonzero(found.label >= 0).tolist():
+        name, local = str(found.segment_id[i]), local_evidence(found, i)
+        for row, position in enumerate(local.landmark.tolist()[:3]):
+            values = local.without(np.array([row]), np.ones((1, 1), np.bool_))
+            anew = without(found, name, [position])
+            assert normalised(values)[0].tolist() == pytest.approx(list(anew.values()), abs=1e-12)
+        for change in counterfactuals(found, name):
+            if change.removed:
+                p = without(found, name, list(change.removed))
+                best = max(p, key=p.__getitem__) if any(p.values()) else None
+                assert best == change.environment != found.name_of(i)
+                changed += 1
+    assert changed
 
 
 def test_pairs_add_up_to_all_that_others_add() -> None:
@@ -171,7 +190,7 @@ def test_counterfactuals_flip_the_label(profile: str) -> None:
         for change in counterfactuals(found, name):
             seen += 1
             again = classify(applied(found, change), found.knowledge, **dict(found.config))
-            values = again.evidence.of(found.evidence_cells.take(np.array([i])))
+            values = again.evidence.of(found.regions.take(np.array([i])))
             p = normalised(values)[0]
             now = again.environments[int(p.argmax())].name if p.any() else None
             assert now == change.environment != found.name_of(i)
@@ -195,7 +214,7 @@ def test_minimal_is_minimal(profile: str, rows: list[Any], bundled: Knowledge, a
     found = classify(area(rows[:8]), bundled, profile=profile, cells=1)
     if found.label[0] < 0:
         return
-    name, cells = str(found.segment_id[0]), found.evidence_cells.take(np.array([0]))
+    name, cells = str(found.segment_id[0]), found.regions.take(np.array([0]))
     fewer = [c for c in counterfactuals(found, name) if c.removed]
     size = len(fewer[0].removed) if fewer else len(rows[:8]) + 1
     assert not fewer or fewer[0].minimal

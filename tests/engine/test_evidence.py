@@ -117,5 +117,5 @@ def test_paper_profile_of_one_cell_by_hand(knowledge: Knowledge, landmarks_at: A
     home = 0.5 * home_c + 0.5 * 6 / 6
     # Open: only the tree, no pair.
     assert found.probability[0] == pytest.approx([1, 0, 0], abs=1e-12)
-    raw = found.evidence.of(found.evidence_cells)
+    raw = found.evidence.of(found.regions)
     assert raw[0] == pytest.approx([home, 0, 0], abs=1e-12)

@@ -112,8 +112,8 @@ def test_a_close_stranger_costs_evidence(knowledge: Knowledge, landmarks_at: Any
     options: dict[str, Any] = {"bandwidth": 40, "cells": 1, "dissimilarity": 0.4, "absence": 0.0}
     alone = classify(landmarks_at([("House", 60, 60)]), knowledge, **options)
     mixed = classify(landmarks_at([("House", 60, 60), ("Shop", 65, 60)]), knowledge, **options)
-    both = mixed.evidence.of(mixed.evidence_cells)[0]
-    assert both[0] == pytest.approx(alone.evidence.of(alone.evidence_cells)[0][0] * 0.6, rel=1e-9)
+    both = mixed.evidence.of(mixed.regions)[0]
+    assert both[0] == pytest.approx(alone.evidence.of(alone.regions)[0][0] * 0.6, rel=1e-9)
 
 
 def test_a_wide_site_speaks_farther_and_as_loud(knowledge: Knowledge, landmarks_at: Any) -> None:
@@ -128,7 +128,7 @@ def test_a_wide_site_speaks_farther_and_as_loud(knowledge: Knowledge, landmarks_
     town = landmarks_at([("Shop", 1500, 1500)], (0, 0, 3000, 3000))
     options: dict[str, Any] = {"bandwidth": 40, "cells": 1, "absence": 0.0}
     small, large = (classify(town, k, **options) for k in (knowledge, wide))
-    in_all = [m.evidence.of(m.evidence_cells)[0, 1] for m in (small, large)]
+    in_all = [m.evidence.of(m.regions)[0, 1] for m in (small, large)]
     assert in_all[1] / in_all[0] == pytest.approx(4, rel=1e-3)  # (80 / 40)^2
     options["cells"] = 600  # 5 m
     small, large = (classify(town, k, threshold=1.0, **options) for k in (knowledge, wide))

@@ -164,6 +164,13 @@ COLLECTIONS: dict[str, tuple[bytes, str]] = {
         b'{"type": "FeatureCollection", "features": [' + b"[" * 99_000, "deep",
     ),
     "UTF-16": (collection(feature()).decode().encode("utf-16"), "body"),
+    "a feature of another type": (collection(feature(), {**feature(), "type": "x"}), "feature 1"),
+    "a feature without a type": (
+        collection({k: v for k, v in feature().items() if k != "type"}), "feature 0",
+    ),
+    "a feature without properties": (
+        collection(feature(), {**feature(), "properties": None}), "feature 1",
+    ),
     "agent is a number": (
         collection(feature(), feature(properties={"class": "House", "agent": 5})), "feature 1",
     ),

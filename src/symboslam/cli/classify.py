@@ -12,10 +12,12 @@ from symboslam.cli.common import (
     SchemeOption,
     bbox_of,
     load_knowledge,
+    position_of,
     progress_bar,
     show,
     table,
 )
+from symboslam.engine.registry import segmentations
 
 if TYPE_CHECKING:
     from symboslam.engine.environment_map import EnvironmentMap
@@ -26,6 +28,8 @@ EXAMPLES = """
 symboslam classify town.geojson --out town.html --out map.geojson
 
 symboslam classify monaco.osm.pbf --bbox 7.40,43.72,7.44,43.75 --out monaco.png
+
+symboslam classify town.geojson --segmentation branch --out fragments.html
 
 symboslam classify flat.csv --ontology rooms.ttl --cells 12 --out flat.html
 
@@ -52,7 +56,9 @@ def classify(
             "output. Can be given several times.",
         ),
     ] = None,
-    segmentation: Annotated[str, typer.Option(help="How the map is cut.")] = "grid",
+    segmentation: Annotated[
+        str, typer.Option(help=f"How the map is cut: {', '.join(segmentations())}.")
+    ] = "grid",
     profile: Annotated[
         str,
         typer.Option(
@@ -104,6 +110,25 @@ def classify(
             show_default="the profile's",
         ),
     ] = None,
+    seed_position: Annotated[
+        str | None,
+        typer.Option(
+            metavar="X,Y",
+            help="branch: where the first fragment begins, in the input's coordinates.",
+            show_default="the densest spot",
+        ),
+    ] = None,
+    momentum: Annotated[
+        int | None,
+        typer.Option(help="branch: landmarks passed over between fragments.", show_default="0"),
+    ] = None,
+    reach: Annotated[
+        float | None,
+        typer.Option(
+            help="branch: metres around a landmark that it stands for.",
+            show_default="by the map's density",
+        ),
+    ] = None,
     reasons: Annotated[
         int | None,
         typer.Option(
@@ -139,6 +164,9 @@ def classify(
             bandwidth=bandwidth,
             absence=absence,
             empty=empty,
+            seed_position=position_of(seed_position),
+            momentum=momentum,
+            reach=reach,
         )
         for target in targets:
             write_map(found, target, reasons=reasons, progress=progress)

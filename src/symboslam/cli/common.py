@@ -85,6 +85,23 @@ def bbox_of(text: str | None) -> tuple[float, float, float, float] | None:
     return west, south, east, north
 
 
+def position_of(text: str | None) -> tuple[float, float] | None:
+    """The two numbers of ``X,Y``.
+
+    Raises:
+        GeometryError: not two numbers.
+    """
+    if text is None:
+        return None
+    try:
+        x, y = (float(v) for v in text.replace(" ", "").split(","))
+    except ValueError:
+        raise GeometryError(
+            f"--seed-position {text!r}: give two numbers X,Y, such as 7.42,43.74"
+        ) from None
+    return x, y
+
+
 def table(*columns: str, title: str | None = None) -> Table:
     """An empty table in the house's look."""
     from rich import box

@@ -147,19 +147,19 @@ def make_map(
         knowledge=KNOWLEDGE,
         config={"profile": "default", "threshold": 0.95, "cells": 2, "bandwidth": None},
         evidence=NoEvidence(),
-        evidence_cells=Cells(*np.zeros((3, 4), np.int64)),
+        regions=Cells(*np.zeros((3, 4), np.int64)),
     )
     object.__setattr__(made, "given", given or {})
     return made
 
 
-class NoEvidence(Evidence):
+class NoEvidence(Evidence[Cells]):
     """Evidence that nobody asks."""
 
     def of(self, cells: Cells) -> Any:
         raise AssertionError
 
-    def settled(self, cells: Cells, evidence: Any) -> Any:
+    def without(self, cells: Cells, landmarks: Sequence[int]) -> Any:
         raise AssertionError
 
     def contributions(self, cells: Cells) -> Any:

@@ -115,13 +115,13 @@ class FieldMap(EnvironmentMap):
         return tuple(sorted(found, key=lambda r: -abs(r.contribution.get(winner, 0.0))))
 
 
-class NoEvidence(Evidence):
+class NoEvidence(Evidence[Cells]):
     """Evidence that nobody asks."""
 
     def of(self, cells: Cells) -> Any:
         raise AssertionError
 
-    def settled(self, cells: Cells, evidence: Any) -> Any:
+    def without(self, cells: Cells, landmarks: Sequence[int]) -> Any:
         raise AssertionError
 
     def contributions(self, cells: Cells) -> Any:
@@ -217,7 +217,7 @@ def make_map(
         knowledge=knowledge,
         config={"profile": "default", "scheme": "all", "segmentation": "grid", **(config or {})},
         evidence=NoEvidence(),
-        evidence_cells=Cells(*np.zeros((3, s), np.int64)),
+        regions=Cells(*np.zeros((3, s), np.int64)),
     )
     object.__setattr__(made, "parts", parts)
     object.__setattr__(made, "counts", counts)
