@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import PurePath
 from typing import TYPE_CHECKING
 
 from rdflib import OWL, RDF, RDFS, SKOS, BNode, Graph, Literal, URIRef
@@ -33,7 +34,7 @@ class Stated:
         strengths: as stated; NaN where a value is no number; empty if none is given.
         reason: the axiom's sentence; empty if none is given.
         source: IRI or text of where it comes from; empty if none is given.
-        stands: file and line of the axiom, in words; empty where that is not known.
+        stands: name of the file, and line, of the axiom; empty where that is not known.
     """
 
     feature: str
@@ -263,7 +264,7 @@ class Statements:
         stands = self._places.get((URIRef(name), RDFS.subClassOf, node))
         return Stated(
             name, place, tuple(sorted(strengths)), reason, min(sources, default=""),
-            "" if stands is None else str(stands),
+            "" if stands is None else str(stands._replace(file=PurePath(stands.file).name)),
         )  # fmt: skip
 
 
