@@ -14,11 +14,9 @@ import shapely
 from numpy.typing import NDArray
 
 from symboslam.engine._base import Contributions, Evidence, Regions
-from symboslam.engine.account import account_of
 from symboslam.engine.chain import Shares, Zoning
 from symboslam.engine.explanation import ClassParts, Explanation, Reason, reasons_of
 from symboslam.engine.landmarks import LandmarkMap
-from symboslam.engine.wording import text_of
 from symboslam.errors import UnknownNameError
 from symboslam.reasoning.knowledge import Environment, Knowledge
 
@@ -152,6 +150,9 @@ class EnvironmentMap:
         Raises:
             UnknownNameError: no such segment.
         """
+        from symboslam.engine.account import account_of
+        from symboslam.engine.wording import text_of
+
         told = self.explain(segment_id)
         return text_of(
             account_of(told, self.knowledge.find_indication, against=against, limit=limit)

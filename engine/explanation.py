@@ -84,8 +84,7 @@ class ClassParts:
         classes, index, counts = np.unique(
             landmarks.feature[contributions.landmark], return_inverse=True, return_counts=True
         )
-        parts = np.zeros((len(classes), len(contributions.ground)))
-        np.add.at(parts, index, contributions.each)
+        parts = np.eye(len(classes))[:, index] @ contributions.each
         return cls(classes.astype(np.int64), counts, parts, contributions.ground)
 
     @property
