@@ -10,6 +10,7 @@ from pathlib import Path
 
 from bench import cases
 from bench.evaluation import evaluation
+from bench.explanations import explanations
 from bench.ingest import ingest
 from bench.measure import machine
 from bench.pitfalls import pitfalls
@@ -32,6 +33,7 @@ CASES: dict[str, tuple[Callable[[], str], Callable[[], str]]] = {
         lambda: cases.growth((10_000, 100_000, 1_000_000)),
         lambda: cases.growth((300, 900)),
     ),
+    "explanations": (lambda: explanations(4000.0, 12), lambda: explanations(1000.0, 60)),
     "segmentation": (
         lambda: segmentation((1_000, 10_000, 100_000), (300, 1000, 3000)),
         lambda: segmentation((300, 900), (60,)),

@@ -14,9 +14,9 @@ import shapely
 from numpy.typing import NDArray
 
 from symboslam.engine._base import Contributions, Evidence, Regions
-from symboslam.engine.explanation import Explanation, Reason, reasons_of
+from symboslam.engine.chain import Shares, Zoning
+from symboslam.engine.explanation import ClassParts, Explanation, Reason, reasons_of
 from symboslam.engine.landmarks import LandmarkMap
-from symboslam.engine.wording import tell
 from symboslam.errors import UnknownNameError
 from symboslam.reasoning.knowledge import Environment, Knowledge
 
@@ -75,6 +75,17 @@ class EnvironmentMap:
             )
         return found
 
+    def column_of(self, environment: str) -> int:
+        """Position of an environment in ``environments``.
+
+        Raises:
+            UnknownNameError: there is none of that name.
+        """
+        names = [e.name for e in self.environments]
+        if environment not in names:
+            raise UnknownNameError(f"no environment {environment!r}; there are {', '.join(names)}")
+        return names.index(environment)
+
     def contributions(self, segments: Sequence[int]) -> Iterator[Contributions]:
         """The landmarks behind each of the segments (positions), in units of P~."""
         regions = self.regions.take(np.asarray(segments, np.int64))
@@ -84,12 +95,24 @@ class EnvironmentMap:
         self, segments: Sequence[int], limit: int | None = None
     ) -> list[tuple[Reason, ...]]:
         """Reasons of several segments (positions), the largest share of any P first."""
+        return [reasons[:limit] for reasons, _ in self.told(segments)]
+
+    def told(self, segments: Sequence[int]) -> list[tuple[tuple[Reason, ...], Shares]]:
+        """Reasons of several segments (positions), and how zones share their environments."""
         known = [i for i in segments if self.label[i] >= 0]
-        found = {
-            i: reasons_of(parts, self.landmarks, self.knowledge, self.environments)[:limit]
-            for i, parts in zip(known, self.contributions(known), strict=True)
-        }
-        return [found.get(i, ()) for i in segments]
+        found = {}
+        for i, each in zip(known, self.contributions(known), strict=True):
+            parts = ClassParts.of(each, self.landmarks)
+            found[i] = (
+                reasons_of(parts, self.knowledge, self.environments),
+                self.zoning.shares(parts.classes, parts.parts, parts.total),
+            )
+        return [found.get(i, ((), {})) for i in segments]
+
+    @cached_property
+    def zoning(self) -> Zoning:
+        """How probabilities are chained to plan zones and to groups of environment types."""
+        return Zoning(self.knowledge, self.config.get("scheme"), self.config.get("measure", "path"))
 
     def name_of(self, position: int) -> str | None:
         """Environment of a segment, or None if unknown."""
@@ -103,6 +126,7 @@ class EnvironmentMap:
             UnknownNameError: no such segment.
         """
         i = self.position_of(segment_id)
+        reasons, shares = self.told([i])[0]
         return Explanation(
             segment_id=str(self.segment_id[i]),
             environment=self.name_of(i),
@@ -111,7 +135,8 @@ class EnvironmentMap:
                 for e, p in zip(self.environments, self.probability[i], strict=True)
                 if self.label[i] >= 0
             },
-            reasons=self.reasons([i])[0],
+            reasons=reasons,
+            chain=self.zoning.chain(self.probability[i], shares),
         )
 
     def tell(self, segment_id: str, *, against: str | None = None, limit: int = 6) -> str:
@@ -125,8 +150,12 @@ class EnvironmentMap:
         Raises:
             UnknownNameError: no such segment.
         """
-        return tell(
-            self.explain(segment_id), self.knowledge.find_indication, against=against, limit=limit
+        from symboslam.engine.account import account_of
+        from symboslam.engine.wording import text_of
+
+        told = self.explain(segment_id)
+        return text_of(
+            account_of(told, self.knowledge.find_indication, against=against, limit=limit)
         )
 
     def shares(self) -> dict[str | None, float]:

@@ -250,6 +250,24 @@ class FieldEvidence(CellEvidence):
             own, loss = self._plain[landmark], self._loss[landmark]
             yield Contributions(landmark, share * own, -share * loss, self._ground)
 
+    def of_one(self, cells: Cells, xy: Floats, site: float) -> float:
+        """What a landmark of weight 1 would add by itself to one cell, per hectare.
+
+        Args:
+            cells: one cell.
+            xy: (2,) where the landmark would stand.
+            site: radius in metres of the ground that it would stand for.
+        """
+        grid, span = self._grid, int(self._grid.span(int(cells.depth[0])))
+        width, share = max(site, self.bandwidth), 1.0
+        for axis, start in ((0, int(cells.column[0]) * span), (1, int(cells.row[0]) * span)):
+            bands = Bands.over(
+                xy[axis : axis + 1], grid.box[axis], grid.step[axis], grid.cells, width
+            )
+            share *= float(bands.between(np.zeros(1, np.int64), start, start + span)[0])
+        size = min(width / self.bandwidth, WIDEST) ** 2
+        return share * size * HECTARE / (grid.step[0] * grid.step[1] * span**2)
+
 
 def dissimilarity(xy: Floats, weight: Floats, radius: float) -> Floats:
     """D_x(e): share of the evidence of the landmarks around x that points away from e.

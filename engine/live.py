@@ -166,7 +166,7 @@ class LiveMap:
         return self._assembled(segments, self._like, self._no_evidence)
 
     def segment(self, name: str) -> EnvironmentMap:
-        """One segment as a map, with the landmarks that have a say.
+        """One segment as a map, with the landmarks that have a say, and those close to them.
 
         Raises:
             UnknownNameError: no such segment.
@@ -174,7 +174,7 @@ class LiveMap:
         for segments in self._roots.values():
             here = np.flatnonzero(segments.names == name)
             if len(here):
-                return self._map(segments.take(here))
+                return self._map(segments.take(here), True)
         raise UnknownNameError(f"no segment {name[:80]!r} in this map")
 
     def catch_up(self) -> Change | None:
@@ -247,8 +247,11 @@ class LiveMap:
             everything=everything,
         )
 
-    def _evidence(self, cells: Mask) -> tuple[LandmarkMap, CellEvidence]:
-        """The evidence in some cells, and the landmarks that it is from."""
+    def _evidence(self, cells: Mask, neighbours: bool = False) -> tuple[LandmarkMap, CellEvidence]:
+        """The evidence in some cells, and the landmarks that it is from.
+
+        With ``neighbours`` also those that contradict these, or would if one were gone.
+        """
         denied = near = None
         if self._pairs:
             roots = covered(self._grid, _cells(self._roots_in(cells)))
@@ -256,6 +259,8 @@ class LiveMap:
             near = list(self._pairs.near(rows))
         else:
             rows = self._around.rows(cells)
+            if neighbours:
+                rows = self._around.with_neighbours(rows)
             denied = self._around.denied(rows)
         landmarks = self.table.take(rows, self._like)
         return landmarks, evidence_of(
@@ -290,8 +295,9 @@ class LiveMap:
             here = (cells.row >> cells.depth == row) & (cells.column >> cells.depth == column)
             self._roots[row, column] = segments.take(here)
 
-    def _map(self, segments: Segments) -> EnvironmentMap:
-        return self._assembled(segments, *self._evidence(covered(self._grid, segments.source)))
+    def _map(self, segments: Segments, neighbours: bool = False) -> EnvironmentMap:
+        cells = covered(self._grid, segments.source)
+        return self._assembled(segments, *self._evidence(cells, neighbours))
 
     def _assembled(
         self, segments: Segments, landmarks: LandmarkMap, evidence: CellEvidence

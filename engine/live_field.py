@@ -41,6 +41,12 @@ class LiveField:
         """Rows of the landmarks that have a say in some cells."""
         return reaching(self._table, self._grid, cells, self._widths)
 
+    def with_neighbours(self, rows: Rows) -> Rows:
+        """The rows, and those of the landmarks that may contradict them."""
+        if not self._contradicts or not len(rows):
+            return rows
+        return np.union1d(rows, self._within(self._table.xy(rows)))
+
     def denied(self, rows: Rows) -> Floats:
         """(m, K) for some rows."""
         if not self._contradicts:

@@ -1,84 +1,173 @@
-"""Wording: explanations in sentences that can be read aloud."""
+"""Wording: accounts in sentences that can be read aloud, in three lengths.
+
+Nothing is said that the account lacks: each name is in it, and each number, rounded.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Iterator
 
-from symboslam.engine.explanation import Explanation, Reason
-from symboslam.reasoning.knowledge import Indication
+from symboslam.engine.account import LEAST, Account, Change, Named, Side, Taken
 
-Why = Callable[[str, str], Indication | None]
-"""(feature name, environment name) -> the indication behind it, if there is one."""
-LEAST = 0.005
-"""Parts of P below this are summed up instead of told."""
+LENGTHS = ("line", "paragraph", "full")
+_IN_A_LINE = 3
+SMALLEST = 0.00005
+"""Differences below this are zeros in four digits."""
 
 
-def tell(explanation: Explanation, why: Why, *, against: str | None = None, limit: int = 6) -> str:
-    """Why a segment is what it is, and why not what comes second.
+def text_of(account: Account, length: str = "paragraph") -> str:
+    """An account in words.
 
     Args:
-        explanation: of one segment.
-        why: finds the sentence behind a feature and an environment.
-        against: the environment to compare with; None takes the runner-up.
-        limit: how many feature classes to name for the winner; half as many for the other.
+        account: of one segment.
+        length: ``line``; ``paragraph``: the strongest reasons for it and for the other; or
+            ``full``: all that the account has.
     """
-    p = explanation.probabilities
-    name = explanation.environment
-    if name is None:
-        return (
-            f"Segment {explanation.segment_id} is unknown: it was not looked at, "
-            "or nothing in and around it says anything."
-        )
-    first = f"Segment {explanation.segment_id} is {name} (P = {p[name]:.2f})"
-    if not explanation.reasons:
-        return f"{first}. The map was written without reasons: classify with --reasons 8."
-    lines = [f"{first}. What stands in and around it adds up to that:"]
-    lines += _told(explanation, name, why, limit)
-    other = against or explanation.runner_up
-    if other and other != name:
-        chance = p.get(other, 0.0)
-        found = _told(explanation, other, why, (limit + 1) // 2)
-        place = "comes second" if other == explanation.runner_up else "is further behind"
-        lines.append(f"Why not {other}? It {place} (P = {chance:.2f}); what speaks for it:")
-        lines += found or ["  nothing in or around the segment."]
+    if length == "line":
+        return _line(account)
+    lines = list(_paragraph(account))
+    if length == "full":
+        lines += _more(account)
+    lines += _changes(account)
     return "\n".join(lines)
 
 
-def _told(explanation: Explanation, environment: str, why: Why, limit: int) -> list[str]:
-    """A line for each of the strongest reasons for one environment, and one for the rest."""
-    reasons = explanation.speaking_for(environment)
-    named = [r for r in reasons if r.feature and r.contribution[environment] >= LEAST][:limit]
-    lines = [_line(r, environment, why) for r in named]
-    rest = sum(r.contribution[environment] for r in reasons if r not in named)
-    if abs(rest) >= LEAST:
-        lines.append(f"  {rest:+.2f}  other kinds of landmarks")
-    return lines
-
-
-def _line(reason: Reason, environment: str, why: Why) -> str:
-    subject = f"{reason.count} x {reason.label}" if reason.count else reason.label
-    indication = why(reason.feature, environment)
-    because = f": {indication.reason}" if indication and indication.reason else ""
-    if indication and indication.steps:
-        because += f" [{' > '.join(indication.path)}]"
-    return f"  {reason.contribution[environment]:+.2f}  {subject}{because}"
-
-
-def summary(explanation: Explanation, limit: int = 3) -> str:
-    """Why a segment is what it is, in one line.
-
-    Args:
-        explanation: of one segment.
-        limit: how many kinds of landmarks to name.
-    """
-    name = explanation.environment
-    if name is None:
-        return f"Segment {explanation.segment_id} is unknown."
-    parts = [
-        f"{reason.count} x {reason.label}" if reason.count else reason.label
-        for reason in explanation.speaking_for(name)[:limit]
-        if reason.contribution[name] >= LEAST
-    ]
+def _line(account: Account) -> str:
+    found, why = account.explanation, account.why
+    if why is None:
+        return f"Segment {found.segment_id} is unknown."
+    parts = [_subject(n) for n in why.named[:_IN_A_LINE]]
     because = f": {', '.join(parts)}" if parts else ""
-    chance = explanation.probabilities[name]
-    return f"Segment {explanation.segment_id} is {name} (P = {chance:.2f}){because}."
+    return f"Segment {found.segment_id} is {why.environment} (P = {why.probability:.2f}){because}."
+
+
+def _paragraph(account: Account) -> Iterator[str]:
+    found, why = account.explanation, account.why
+    if why is None:
+        yield (
+            f"Segment {found.segment_id} is unknown: it was not looked at, "
+            "or nothing in and around it says anything."
+        )
+        return
+    first = f"Segment {found.segment_id} is {why.environment} (P = {why.probability:.2f})"
+    if not found.reasons:
+        yield f"{first}. The map was written without reasons: classify with --reasons 8."
+        return
+    yield f"{first}. What stands in and around it adds up to that:"
+    yield from _side(why)
+    yield from _levels(account, why.environment)
+    other = account.against
+    if other is not None:
+        place = "comes second" if other.environment == account.runner_up else "is further behind"
+        yield (
+            f"Why not {other.environment}? It {place} (P = {other.probability:.2f}); "
+            "what speaks for it:"
+        )
+        lines = list(_side(other))
+        yield from lines or ["  nothing in or around the segment."]
+
+
+def _side(side: Side) -> Iterator[str]:
+    """A line for each class that is named, and one for the rest."""
+    for each in side.named:
+        because = f": {each.reason}" if each.reason else ""
+        if each.path:
+            because += f" [{' > '.join(each.path)}]"
+        yield f"  {each.contribution:+.2f}  {_subject(each)}{because}"
+    if abs(side.rest) >= LEAST:
+        yield f"  {side.rest:+.2f}  other kinds of landmarks"
+
+
+def _subject(named: Named | Taken) -> str:
+    return f"{named.count} x {named.label}" if named.count else named.label
+
+
+def _levels(account: Account, name: str) -> Iterator[str]:
+    """The zone that it is most probably, and the group that it is in."""
+    chain = account.explanation.chain
+    if chain is None:
+        return
+    zones = chain.zones.get(name, {})
+    if zones:
+        ranked = sorted(zones.items(), key=lambda pair: -pair[1])
+        told = ", ".join(f"{zone} {p:.2f}" for zone, p in ranked if p >= LEAST)
+        yield f"By plan zone: {told}."
+    elif name in chain.untold:
+        yield f"Which zone of {name} it is, the evidence does not tell."
+    groups = [f"{group} {p:.2f}" for group, p in chain.groups.items() if p >= LEAST]
+    if chain.groups.keys() - account.explanation.probabilities.keys():
+        yield f"By kind of area: {', '.join(groups)}."
+
+
+def _more(account: Account) -> Iterator[str]:
+    """All that a paragraph leaves out."""
+    found, why, other = account.explanation, account.why, account.against
+    if found.probabilities:
+        yield "All probabilities:"
+        ranked = sorted(found.probabilities.items(), key=lambda pair: -pair[1])
+        yield from (f"  {p:.4f}  {name}" for name, p in ranked)
+    if why is not None and other is not None:
+        gap = why.probability - other.probability
+        yield (
+            f"Why {why.environment} rather than {other.environment}: "
+            f"{why.probability:.4f} - {other.probability:.4f} = {gap:+.4f}, which is the sum of "
+            "(smaller parts are left out):"
+        )
+        for d in account.differences:
+            if abs(d.difference) < SMALLEST:
+                break  # the largest come first
+            subject = f"{d.count} x {d.label}" if d.count else d.label
+            yield f"  {d.difference:+.4f}  {subject} ({d.winner:+.4f} less {d.other:+.4f})"
+    if account.landmarks:
+        yield f"The strongest landmarks for {found.environment}:"
+        for mark in account.landmarks:
+            without = "" if mark.without is None else f"; without it P = {mark.without:.4f}"
+            yield (
+                f"  {mark.contribution:+.4f}  {mark.label} {mark.id} "
+                f"(by itself {mark.own:+.4f}, through others {mark.pairs:+.4f}{without})"
+            )
+    if account.pairs:
+        yield "The strongest pairs:"
+        for pair in account.pairs:
+            one, two = pair.features
+            yield f"  {pair.contribution:+.4f}  {one} {pair.first} and {two} {pair.second}"
+    if account.indications:
+        yield "What the ontology states:"
+        for i in account.indications:
+            where = ", ".join(filter(None, (i.source, i.stands)))
+            way = "" if not i.steps else f", {i.steps} steps: {' > '.join(i.path)}"
+            yield (
+                f"  {i.feature} indicates {i.environment} (strength {i.strength:g}{way})"
+                + (f": {i.reason}" if i.reason else "")
+                + (f" [{where}]" if where else "")
+            )
+
+
+def _changes(account: Account) -> Iterator[str]:
+    """The counterfactuals, if they were looked for."""
+    if account.counterfactuals is None or account.why is None:
+        return
+    if not account.counterfactuals:
+        yield (
+            "No change of landmarks within the bounds of the search was found that would make it "
+            "something else."
+        )
+        return
+    yield "It would be something else"
+    yield from (f"  {_change(each)}" for each in account.counterfactuals)
+    if not any(each.without for each in account.counterfactuals):
+        yield "No landmarks whose loss would do it were found within the bounds of the search."
+
+
+def _change(change: Change) -> str:
+    to = "unknown" if change.environment is None else change.environment
+    then = f"{to} (P = {change.probability:.2f})" if change.environment else to
+    if change.plus is not None:
+        return f"with {change.plus.count} more x {change.plus.label} in its middle: {then}."
+    taken = ", ".join(_subject(each) for each in change.without)
+    proof = (
+        "no smaller set does it"
+        if change.minimal
+        else f"the search ended at its bound after {change.tried} sets: a smaller one may do it too"
+    )
+    return f"without {taken}: {then}; {proof}."

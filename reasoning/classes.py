@@ -49,16 +49,28 @@ class Classes:
 
     @cached_property
     def views(self) -> frozenset[str]:
-        """Classes that only sort features by what these indicate, such as ResidentialFeature.
+        """Classes that only sort others.
 
+        Features by what these indicate, such as ResidentialFeature; environments, such as Urban.
         They are kept out of the taxonomies: to be one is no reason for an indication, but its
         consequence.
         """
-        return frozenset(
+        return self.environment_groups | frozenset(
             name
             for name in self.stated.classes
             if self.stated.defined_by_indicating(name) and not self.is_tagged(name)
         )
+
+    @cached_property
+    def environment_groups(self) -> frozenset[str]:
+        """Classes that bring environment types together (``sl:environmentGroup``)."""
+        return frozenset(
+            name for name in self.stated.classes if self.stated.is_true(name, v.ENVIRONMENT_GROUP)
+        )
+
+    def groups_above(self, name: str) -> list[str]:
+        """The groups that a class is inferred to be in, sorted."""
+        return sorted(self.environment_groups & self.hierarchy.above(name))
 
     @cached_property
     def indications(self) -> dict[str, list[Stated]]:

@@ -13,7 +13,15 @@ import numpy as np
 from symboslam.errors import EmptyOntologyError, OntologyError
 from symboslam.reasoning import vocabulary as v
 from symboslam.reasoning.classes import Classes
-from symboslam.reasoning.knowledge import Environment, Feature, Indication, Knowledge, PlanZone
+from symboslam.reasoning.knowledge import (
+    Environment,
+    EnvironmentGroup,
+    Feature,
+    Floats,
+    Indication,
+    Knowledge,
+    PlanZone,
+)
 from symboslam.reasoning.proximity import MEASURES, Way
 from symboslam.reasoning.statements import Stated
 
@@ -59,20 +67,7 @@ class _Extraction:
         features = [c for c in self.classes.features.classes if self._is_landmark(c)]
         features.sort(key=self.name)
         environments = sorted(self.classes.environments, key=self.name)
-        shape = (len(features), len(environments))
-        proximities = {measure: np.zeros(shape) for measure in MEASURES}
-        indications = []
-        for i, feature in enumerate(features):
-            for k, environment in enumerate(environments):
-                ways = list(self._ways(feature, environment))
-                if not ways:
-                    continue
-                for name, factor in MEASURES.items():
-                    best = max(stated.strength * factor(way) for way, stated in ways)
-                    proximities[name][i, k] = round(best, _DIGITS)
-                is_direct = any(way.steps == 0 for way, _ in ways)
-                indications.append(self._indication(*min(ways, key=_best_first), is_direct))
-                proximities["path"][i, k] = indications[-1].proximity  # to the last digit
+        indications, proximities = self._table(features, environments)
         if not indications:
             raise EmptyOntologyError(
                 "no feature of the ontology indicates an environment: state for example that "
@@ -89,7 +84,74 @@ class _Extraction:
             absence=tuple(self.name(c) for c in features if self._is_absence(c)),
             bandwidths=self._bandwidths(),
             labels={n: self.stated.label(c) for c, n in sorted(self._names.items()) if n in used},
+            groups=self._groups(environments),
+            zones=self._zones(features, environments),
         )
+
+    def _table(
+        self, features: list[str], places: list[str]
+    ) -> tuple[list[Indication], dict[str, Floats]]:
+        """The best way from each feature to each place, and all proximities, (F, K) each."""
+        proximities = {measure: np.zeros((len(features), len(places))) for measure in MEASURES}
+        indications = []
+        for i, feature in enumerate(features):
+            for k, place in enumerate(places):
+                ways = list(self._ways(feature, place))
+                if not ways:
+                    continue
+                for name, factor in MEASURES.items():
+                    best = max(stated.strength * factor(way) for way, stated in ways)
+                    proximities[name][i, k] = round(best, _DIGITS)
+                is_direct = any(way.steps == 0 for way, _ in ways)
+                indications.append(self._indication(*min(ways, key=_best_first), is_direct))
+                proximities["path"][i, k] = indications[-1].proximity  # to the last digit
+        return indications, proximities
+
+    def _groups(self, environments: list[str]) -> tuple[EnvironmentGroup, ...]:
+        """The groups that have members.
+
+        Raises:
+            OntologyError: an environment type is in two groups, so that sums would count it twice.
+        """
+        members: dict[str, list[str]] = {}
+        for environment in environments:
+            above = self.classes.groups_above(environment)
+            if len(above) > 1:
+                names = " and ".join(map(v.local_name, above))
+                raise OntologyError(
+                    f"{v.local_name(environment)} is in the groups {names}; a type can be in one"
+                )
+            for group in above:
+                members.setdefault(group, []).append(self.name(environment))
+        return tuple(
+            EnvironmentGroup(
+                group, v.local_name(group), self.stated.label(group), self.stated.definition(group),
+                tuple(names),
+            )
+            for group, names in sorted(members.items())
+        )  # fmt: skip
+
+    def _zones(self, features: list[str], environments: list[str]) -> Knowledge | None:
+        """The table of the plan zones of all environments."""
+        found = [self._environment(c, i) for i, c in enumerate(environments)]
+        whole = {z.iri: e for e in found for z in e.zones}
+        if not whole:
+            return None
+        zones = sorted(whole, key=self.name)
+        indications, proximities = self._table(features, zones)
+        return Knowledge(
+            environments=tuple(
+                Environment(
+                    c, self.name(c), self.stated.label(c), self.stated.definition(c),
+                    whole[c].colour,
+                )
+                for c in zones
+            ),
+            features=tuple(self._feature(c) for c in features),
+            indications=tuple(indications),
+            proximities=proximities,
+            schemes={e.name: tuple(z.name for z in e.zones) for e in found if e.zones},
+        )  # fmt: skip
 
     @cached_property
     def _names(self) -> dict[str, str]:
@@ -140,6 +202,7 @@ class _Extraction:
             axioms=tuple(axioms),
             source_iri=stated.source if is_iri else "",
             is_direct=is_direct,
+            stands=stated.stands,
         )
 
     def _steps_in_words(self, way: tuple[str, ...]) -> Iterator[str]:

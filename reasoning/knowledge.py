@@ -46,6 +46,25 @@ class Environment:
 
 
 @dataclass(frozen=True)
+class EnvironmentGroup:
+    """A coarser kind of area that brings environment types together, such as urban land.
+
+    Attributes:
+        iri: its class.
+        name: local name.
+        label: words for people.
+        definition: one sentence.
+        members: names of its environment types; none is in two groups.
+    """
+
+    iri: str
+    name: str
+    label: str
+    definition: str = ""
+    members: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
 class Feature:
     """A class of landmarks.
 
@@ -90,6 +109,7 @@ class Indication:
         source_iri: where the axiom comes from, if that has an IRI.
         is_direct: whether f also indicates e itself by an axiom of its own (then h is 0, or this
             longer way is the stronger one).
+        stands: file and line of the axiom ``g indicates p``, in words; empty if not known.
     """
 
     feature: str
@@ -102,6 +122,7 @@ class Indication:
     axioms: tuple[str, ...] = ()
     source_iri: str = ""
     is_direct: bool = False
+    stands: str = ""
 
     @property
     def proximity(self) -> float:
@@ -126,6 +147,9 @@ class Knowledge:
         bandwidths: scheme name -> how far in metres its landmarks speak for the ground around
             them, where the ontology states it.
         notes: what a user should know about the loading, such as imports that were not found.
+        groups: coarser kinds of area above the environment types.
+        zones: the same table with the plan zones in the place of the environment types, and with
+            a scheme for each environment type that has zones: those zones. None without zones.
     """
 
     environments: tuple[Environment, ...]
@@ -139,6 +163,8 @@ class Knowledge:
     labels: Mapping[str, str] = field(default_factory=dict)
     bandwidths: Mapping[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    groups: tuple[EnvironmentGroup, ...] = ()
+    zones: Knowledge | None = None
 
     @classmethod
     def load(

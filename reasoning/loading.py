@@ -60,7 +60,7 @@ def reason(read: files.Sources, reasoner: Reasoner | None = None) -> Classes:
     hierarchy = reasoner.classify([*declared, *(t for a in axioms for t in a.triples)])
     if hierarchy is None or hierarchy.unsatisfiable:
         raise refuse(reasoner, declared, axioms, hierarchy)
-    return Classes(Statements(read.graph), hierarchy)
+    return Classes(Statements(read.graph, read.places), hierarchy)
 
 
 def _load_bundled(cache: bool) -> Knowledge:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import PurePath
+from typing import TYPE_CHECKING
 
 from rdflib import OWL, RDF, RDFS, SKOS, BNode, Graph, Literal, URIRef
 from rdflib.collection import Collection
@@ -14,6 +16,10 @@ from rdflib.term import Node
 
 from symboslam.errors import OntologyError
 from symboslam.reasoning import vocabulary as v
+
+if TYPE_CHECKING:
+    from symboslam.reasoning.located import Triple
+    from symboslam.reasoning.sources import Place
 
 _NECESSARY = (RDFS.subClassOf, OWL.equivalentClass)
 
@@ -28,6 +34,7 @@ class Stated:
         strengths: as stated; NaN where a value is no number; empty if none is given.
         reason: the axiom's sentence; empty if none is given.
         source: IRI or text of where it comes from; empty if none is given.
+        stands: name of the file, and line, of the axiom; empty where that is not known.
     """
 
     feature: str
@@ -35,6 +42,7 @@ class Stated:
     strengths: tuple[float, ...] = ()
     reason: str = ""
     source: str = ""
+    stands: str = ""
 
     @property
     def strength(self) -> float:
@@ -61,10 +69,15 @@ class Scheme:
 
 
 class Statements:
-    """Answers from a graph, always in the same order, so that results repeat exactly."""
+    """Answers from a graph, always in the same order, so that results repeat exactly.
 
-    def __init__(self, graph: Graph) -> None:
-        self.graph = graph
+    Args:
+        graph: what is stated.
+        places: triple -> the file and line on which it stands, where that is known.
+    """
+
+    def __init__(self, graph: Graph, places: Mapping[Triple, Place] | None = None) -> None:
+        self.graph, self._places = graph, places or {}
 
     @cached_property
     def classes(self) -> tuple[str, ...]:
@@ -248,7 +261,11 @@ class Statements:
             reasons |= {o for o in comments if isinstance(o, Literal)}
             sources |= {str(o) for o in self.graph.objects(axiom, URIRef(v.DERIVED_FROM))}
         reason = _clean(min(reasons, key=_english_first)) if reasons else ""
-        return Stated(name, place, tuple(sorted(strengths)), reason, min(sources, default=""))
+        stands = self._places.get((URIRef(name), RDFS.subClassOf, node))
+        return Stated(
+            name, place, tuple(sorted(strengths)), reason, min(sources, default=""),
+            "" if stands is None else str(stands._replace(file=PurePath(stands.file).name)),
+        )  # fmt: skip
 
 
 def _english_first(text: Literal) -> tuple[int, str]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -18,6 +18,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from symboslam.engine.chain import Shares
 from symboslam.engine.environment_map import EnvironmentMap
 from symboslam.engine.explanation import Reason
 from symboslam.reasoning.knowledge import Feature
@@ -47,6 +48,20 @@ class Part:
 
 
 @dataclass(frozen=True)
+class ChainPart:
+    """A chain in whole millionths; every level adds up exactly.
+
+    Attributes:
+        groups: coarser area -> millionths, which add up to a million.
+        zones: environment name -> zone name -> millionths, which add up to those of the
+            environment; None where its zones are not told apart. Zeros are left out.
+    """
+
+    groups: dict[str, int]
+    zones: dict[str, dict[str, int] | None]
+
+
+@dataclass(frozen=True)
 class Block:
     """Some segments (s of them), ready to be written.
 
@@ -58,6 +73,8 @@ class Block:
         landmark_count: s numbers.
         depth: s numbers.
         parts: the reasons of each segment; None if none are wanted.
+        chains: the chain of each segment, None where it is unknown or in no group or zone; None if
+            no reasons are wanted, for zones are made from them.
     """
 
     geometry: NDArray[Any]
@@ -67,6 +84,7 @@ class Block:
     landmark_count: list[int]
     depth: list[int]
     parts: list[list[Part]] | None
+    chains: list[ChainPart | None] | None
 
 
 class Content:
@@ -91,6 +109,7 @@ class Content:
             part = slice(start, start + BLOCK)
             probability = millionths(m.probability[part])
             probability[m.label[part] < 0] = 0
+            parts, chains = self._told(start, probability) if self._reasons else (None, None)
             yield Block(
                 geometry=self.outside(m.geometry[part]),
                 segment_id=[str(name) for name in m.segment_id[part]],
@@ -98,19 +117,39 @@ class Content:
                 probability=probability,
                 landmark_count=m.landmark_count[part].tolist(),
                 depth=m.depth[part].tolist(),
-                parts=self._parts(start, probability) if self._reasons else None,
+                parts=parts,
+                chains=chains,
             )
 
-    def _parts(self, start: int, probability: NDArray[np.int64]) -> list[list[Part]]:
-        """The reasons of the segments from ``start`` on, as many as there are rows."""
-        found = self.map.reasons(range(start, start + len(probability)))
+    def _told(
+        self, start: int, probability: NDArray[np.int64]
+    ) -> tuple[list[list[Part]], list[ChainPart | None]]:
+        """The reasons and chains of the segments from ``start`` on, as many as there are rows."""
+        found = self.map.told(range(start, start + len(probability)))
         names = self.environment_names
-        shown = []
-        for reasons, row in zip(found, probability.tolist(), strict=True):
-            parts = rounded(reasons, dict(zip(names, row, strict=True)), self._reasons)
+        shown: list[list[Part]] = []
+        chains: list[ChainPart | None] = []
+        for (reasons, shares), row in zip(found, probability.tolist(), strict=True):
+            chances = dict(zip(names, row, strict=True))
+            parts = rounded(reasons, chances, self._reasons)
             self.mentioned.update((p.feature, p.label) for p in parts if p.feature is not None)
             shown.append(parts)
-        return shown
+            chains.append(self._chain(chances, shares))
+        return shown, chains
+
+    def _chain(self, chances: dict[str, int], shares: Shares) -> ChainPart | None:
+        groups: dict[str, int] = {}
+        for name, n in chances.items():
+            if n:
+                group = self.map.zoning.group_of[name]
+                groups[group] = groups.get(group, 0) + n
+        if not self.map.zoning.tells_more(groups, shares):
+            return None
+        zones: dict[str, dict[str, int] | None] = {}
+        for name, found in shares.items():
+            if chances[name]:
+                zones[name] = None if found is None else divided(chances[name], found)
+        return ChainPart(groups, zones)
 
     @cached_property
     def environment_names(self) -> list[str]:
@@ -168,6 +207,33 @@ class Content:
             for e in self.map.environments
         }
 
+    def levels(self) -> dict[str, dict[str, Any]]:
+        """The groups above and the zones below the map's environments, if chains are told."""
+        if not self._reasons:
+            return {}
+        knowledge, names = self.map.knowledge, set(self.environment_names)
+        found: dict[str, dict[str, Any]] = {
+            g.name: {
+                "iri": g.iri,
+                "label": g.label,
+                "definition": g.definition,
+                "members": [name for name in g.members if name in names],
+            }
+            for g in knowledge.groups
+            if names & set(g.members)
+        }
+        if knowledge.zones is not None:
+            for environment in self.map.environments:
+                if environment.name in knowledge.zones.schemes:
+                    for zone in knowledge.zones.scheme(environment.name):
+                        found[zone.name] = {
+                            "iri": zone.iri,
+                            "label": zone.label,
+                            "definition": zone.definition,
+                            "within": environment.name,
+                        }
+        return found
+
     @cached_property
     def _known(self) -> dict[str, Feature]:
         return {f.name: f for f in self.map.knowledge.features}
@@ -189,6 +255,7 @@ class Content:
                     "reason": i.reason,
                     "source": i.source,
                     "source_iri": i.source_iri,
+                    "stands": i.stands,
                 }
         return used
 
@@ -233,6 +300,20 @@ def millionths(probability: NDArray[np.float64]) -> NDArray[np.int64]:
     missing = np.where(whole.any(1), MILLION - whole.sum(1), 0)
     rank = np.argsort(np.argsort(whole - exact, axis=1, kind="stable"), axis=1, kind="stable")
     return np.asarray(whole + (rank < missing[:, None]))
+
+
+def divided(whole: int, shares: Mapping[str, float]) -> dict[str, int]:
+    """A whole number by shares that sum to 1, largest remainders up; zeros are left out.
+
+    >>> divided(10, {"RZ1": 0.25, "RZ2": 0.75, "RZ3": 0.0})
+    {'RZ1': 3, 'RZ2': 7}
+    """
+    exact = {name: whole * share for name, share in shares.items() if share}
+    found = {name: math.floor(value) for name, value in exact.items()}
+    order = sorted(exact, key=lambda name: found[name] - exact[name])
+    for name in order[: whole - sum(found.values())]:
+        found[name] += 1
+    return {name: n for name, n in found.items() if n}
 
 
 def rounded(reasons: tuple[Reason, ...], probability: dict[str, int], limit: int) -> list[Part]:

@@ -10,7 +10,14 @@ import shapely
 
 from symboslam import __version__
 from symboslam.engine.environment_map import EnvironmentMap
-from symboslam.engine.writers.content import MILLION, Block, Content, Part, source_name
+from symboslam.engine.writers.content import (
+    MILLION,
+    Block,
+    ChainPart,
+    Content,
+    Part,
+    source_name,
+)
 from symboslam.engine.writers.options import WriteOptions, reasons_wanted
 
 
@@ -74,6 +81,8 @@ def _features(block: Block, names: list[str], distribution: str) -> Iterator[str
         known = label >= 0
         single = ',"single_landmark":true' if count == 1 else ""
         reasons = "" if block.parts is None else f',"reasons":{_reasons(block.parts[i])}'
+        chain = None if block.chains is None else block.chains[i]
+        reasons += "" if chain is None else f',"chain":{_chain(chain)}'
         yield (
             f'{{"type":"Feature","geometry":{outlines[i]},"properties":{{'
             f'"segment_id":{_json(block.segment_id[i])},'
@@ -97,6 +106,18 @@ def _reasons(parts: list[Part]) -> str:
     )
 
 
+def _chain(chain: ChainPart) -> str:
+    return _json(
+        {
+            "groups": {name: n / MILLION for name, n in chain.groups.items()},
+            "zones": {
+                name: zones and {zone: n / MILLION for zone, n in zones.items()}
+                for name, zones in chain.zones.items()
+            },
+        }
+    )
+
+
 def _about(content: Content) -> dict[str, Any]:
     """The member ``symboslam``: what the map was made of and with."""
     m = content.map
@@ -107,6 +128,7 @@ def _about(content: Content) -> dict[str, Any]:
         "source": source_name(m),
         "report": content.report(),
         "environments": content.environments(),
+        "levels": content.levels(),
         "features": content.features(),
     }
 

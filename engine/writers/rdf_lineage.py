@@ -97,18 +97,28 @@ def provenance(
 def terms(records: Records) -> Iterator[Record]:
     """The environments and features that occur, so that the file explains itself."""
     s, content = records.syntax, records.content
+    levels = content.levels()
     for name, e in content.environments().items():
-        found = _term(records, "Environment", name, e["label"])
+        above = [g["iri"] for g in levels.values() if name in g.get("members", ())]
+        found = _term(records, [SL + "Environment", *above], name, e["label"])
         if e["definition"]:
             found.append((s.iri(SKOS + "definition"), [s.text(e["definition"], "en")]))
         found.append((s.iri(SL + "colour"), [s.text(e["colour"])]))
         yield records.environment_named[name], found
+    iris = {e.name: e.iri for e in records.map.environments}
+    for name, level in levels.items():
+        found = _term(
+            records, [iris[level["within"]]] if "within" in level else [], name, level["label"]
+        )
+        if level["definition"]:
+            found.append((s.iri(SKOS + "definition"), [s.text(level["definition"], "en")]))
+        yield records.level_named[name], found
     known = records.map.knowledge.features
     seen = [known[i] for i in np.unique(records.map.landmarks.feature).tolist()]
     explained = content.features()
     labels = {**{f.name: f.label for f in seen}, **content.mentioned}
     for name, label in sorted(labels.items()):
-        found = _term(records, "Feature", name, label)
+        found = _term(records, [SL + "Feature"], name, label)
         indications = explained.get(name, {}).get("indications", {})
         if indications:
             nodes = [_indication(records, e, i) for e, i in indications.items()]
@@ -177,14 +187,14 @@ def _agents(agents: NDArray[Any] | None) -> list[str]:
     return [] if agents is None else sorted({str(a) for a in agents if a})
 
 
-def _term(records: Records, kind: str, name: str, label: str) -> Properties:
+def _term(records: Records, kinds: list[str], name: str, label: str) -> Properties:
     s = records.syntax
-    return [
-        records.a(OWL + "Class"),
-        (s.iri(RDFS + "subClassOf"), [s.iri(SL + kind)]),
-        (s.iri(SKOS + "notation"), [s.text(name)]),
-        (s.iri(RDFS + "label"), [s.text(label, "en")]),
-    ]
+    found: Properties = [records.a(OWL + "Class")]
+    if kinds:
+        found.append((s.iri(RDFS + "subClassOf"), [s.iri(kind) for kind in kinds]))
+    found.append((s.iri(SKOS + "notation"), [s.text(name)]))
+    found.append((s.iri(RDFS + "label"), [s.text(label, "en")]))
+    return found
 
 
 def _indication(records: Records, environment: str, indication: dict[str, Any]) -> Properties:
@@ -200,6 +210,8 @@ def _indication(records: Records, environment: str, indication: dict[str, Any]) 
         found.append((s.iri(RDFS + "comment"), [s.text(indication["reason"], "en")]))
     if indication["source"]:
         found.append((s.iri(DCTERMS + "source"), [s.text(indication["source"])]))
+    if indication["stands"]:
+        found.append((s.iri(SL + "statedAt"), [s.text(indication["stands"])]))
     if ABSOLUTE_IRI.fullmatch(indication["source_iri"]):
         found.append((s.iri(PROV + "wasDerivedFrom"), [s.iri(indication["source_iri"])]))
     return found

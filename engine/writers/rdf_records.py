@@ -9,7 +9,7 @@ from typing import TypeAlias
 import numpy as np
 import shapely
 
-from symboslam.engine.writers.content import OTHER, Content, Part
+from symboslam.engine.writers.content import OTHER, ChainPart, Content, Part
 from symboslam.engine.writers.options import WriteOptions
 from symboslam.engine.writers.rdf_syntax import Properties, Syntax
 from symboslam.engine.writers.vocabulary import (
@@ -41,6 +41,7 @@ class Records:
         feature_named: name of a feature -> term.
         environments: terms of the K environments.
         environment_named: name of an environment -> term.
+        level_named: name of a group or zone -> term.
     """
 
     def __init__(self, content: Content, syntax: Syntax) -> None:
@@ -52,6 +53,7 @@ class Records:
         self.environment_named = dict(
             zip(content.environment_names, self.environments, strict=True)
         )
+        self.level_named = {n: syntax.iri(e["iri"]) for n, e in content.levels().items()}
         environment = syntax.iri(SL + "environment")
         self._of_environment: dict[str, Property] = {
             name: (environment, [term]) for name, term in self.environment_named.items()
@@ -145,15 +147,25 @@ class Records:
                 yield segment, found
                 if label >= 0:
                     parts = block.parts[i] if block.parts is not None else []
-                    yield self._classification(name, segment, rows[i], parts)
+                    chain = None if block.chains is None else block.chains[i]
+                    yield self._classification(
+                        name, segment, rows[i], parts, chain or ChainPart({}, {})
+                    )
             written += len(block.segment_id)
             options.tell("writing RDF", written / len(self.map))
 
-    def _classification(self, name: str, segment: str, row: list[int], parts: list[Part]) -> Record:
+    def _classification(
+        self, name: str, segment: str, row: list[int], parts: list[Part], chain: ChainPart
+    ) -> Record:
         s = self.syntax
         kind, probability = self.a(SL + "EnvironmentProbability"), s.iri(SL + "probability")
         distribution: list[str | Properties] = [
-            [kind, self._of_environment[e], (probability, [s.decimal(fraction(p))])]
+            [
+                kind,
+                self._of_environment[e],
+                (probability, [s.decimal(fraction(p))]),
+                *self._zones(e, chain),
+            ]
             for e, p in zip(self.content.environment_names, row, strict=True)
         ]
         found: Properties = [
@@ -167,6 +179,7 @@ class Records:
                         self.a(SL + "EnvironmentDistribution"),
                         (s.iri(PROV + "wasGeneratedBy"), [s.own("run")]),
                         (s.iri(SL + "hasProbability"), distribution),
+                        *self._groups(chain),
                     ]
                 ],
             ),
@@ -175,6 +188,37 @@ class Records:
         if contributions:
             found.append((s.iri(SL + "hasContribution"), list(contributions)))
         return s.own("classification", name), found
+
+    def _zones(self, environment: str, chain: ChainPart) -> Properties:
+        """How the zones of an environment share its probability, or that nothing tells."""
+        if environment not in chain.zones:
+            return []
+        zones = chain.zones[environment]
+        if zones is None:
+            return [
+                (
+                    self.syntax.iri(SL + "zonesToldApart"),
+                    [self.syntax.typed("false", XSD + "boolean")],
+                )
+            ]
+        return [self._chained("hasZoneProbability", zones)] if zones else []
+
+    def _groups(self, chain: ChainPart) -> Properties:
+        """The probabilities of groups; a type that is in none has its own among the others."""
+        own = self.environment_named
+        groups = {name: n for name, n in chain.groups.items() if name not in own}
+        return [self._chained("hasGroupProbability", groups)] if groups else []
+
+    def _chained(self, link: str, found: dict[str, int]) -> Property:
+        s = self.syntax
+        return s.iri(SL + link), [
+            [
+                self.a(SL + "ChainedProbability"),
+                (s.iri(SL + "environment"), [self.level_named[name]]),
+                (s.iri(SL + "probability"), [s.decimal(fraction(n))]),
+            ]
+            for name, n in found.items()
+        ]
 
     def _contributions(self, part: Part) -> Iterator[Properties]:
         """A node for each environment that a reason adds something to."""

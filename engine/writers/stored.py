@@ -5,10 +5,11 @@ from __future__ import annotations
 import difflib
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from symboslam.engine.chain import chain_of
 from symboslam.engine.explanation import Explanation, Reason
 from symboslam.errors import InputError, UnknownNameError
 from symboslam.reasoning.knowledge import Environment, Indication
@@ -24,6 +25,9 @@ class StoredMap:
         features: labels of the features that are named in reasons, by name.
         indications: (feature name, environment name) -> what the one says of the other.
         segments: explanations by segment id.
+        config: the settings that it was made with, as keywords of ``classify``.
+        knowledge_hash: of the ontology that it was made with.
+        iris: IRIs of environments, features, groups and zones by name.
     """
 
     source: str
@@ -31,6 +35,9 @@ class StoredMap:
     features: Mapping[str, str]
     indications: Mapping[tuple[str, str], Indication]
     segments: Mapping[str, Explanation]
+    config: Mapping[str, Any] = field(default_factory=dict)
+    knowledge_hash: str = ""
+    iris: Mapping[str, str] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.segments)
@@ -117,6 +124,13 @@ def _read_geojson(path: Path) -> StoredMap:
                 for environment, given in feature["indications"].items()
             },
             segments={segment.segment_id: segment for segment in segments},
+            config=dict(about.get("config", {})),
+            knowledge_hash=str(about.get("knowledge_hash", "")),
+            iris={
+                name: str(given["iri"])
+                for table in (features, environments, about.get("levels", {}))
+                for name, given in table.items()
+            },
         )
     except (AttributeError, KeyError, TypeError, ValueError, OverflowError) as error:
         problem = f"it lacks {error}" if isinstance(error, KeyError) else "a part has a wrong type"
@@ -140,6 +154,7 @@ def _segment(properties: dict[str, Any]) -> Explanation:
                 )
                 for given in properties.get("reasons", ())
             ),
+            chain=chain_of(**properties["chain"]) if properties.get("chain") else None,
         )
     )
 

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections import defaultdict
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
+from symboslam.engine.chain import Chain, chain_of
 from symboslam.engine.explanation import Explanation, Reason
 from symboslam.engine.writers.rdf_index import Index, read_index
 from symboslam.engine.writers.stored import StoredMap, in_order
@@ -52,7 +56,30 @@ def _stored(index: Index, source: str) -> StoredMap:
             (i.feature, i.environment): i for f in features for i in _indications(index, f)
         },
         segments={segment.segment_id: segment for segment in segments},
+        config={
+            index.text(node, SL + "settingName"): _value(index.text(node, SL + "settingValue"))
+            for node in index.of_type(SL + "Setting")
+        },
+        knowledge_hash=next(
+            (index.text(node, SL + "sha256") for node in index.of_type(SL + "OntologySource")), ""
+        ),
+        iris={_name(index, term): term for term in [*features, *environments, *_levels(index)]},
     )
+
+
+def _levels(index: Index) -> list[str]:
+    """The groups and zones that occur."""
+    nodes = index.of_type(SL + "ChainedProbability")
+    found = {index.one(node, SL + "environment") for node in nodes}
+    return sorted(term for term in found if term is not None)
+
+
+def _value(text: str) -> Any:
+    """A setting as a plain value."""
+    try:
+        return json.loads(text)
+    except ValueError:
+        return text
 
 
 def _name(index: Index, term: str) -> str:
@@ -101,6 +128,7 @@ def _indications(index: Index, feature: str) -> list[Indication]:
             reason=index.text(node, RDFS + "comment"),
             source=index.text(node, DCTERMS + "source"),
             source_iri=index.text(node, PROV + "wasDerivedFrom"),
+            stands=index.text(node, SL + "statedAt"),
         )
         for node in index.all(feature, SL + "hasIndication")
     ]
@@ -111,11 +139,18 @@ def _segment(index: Index, segment: str) -> Explanation:
     environment = index.one(segment, SL + "environment")
     probabilities: dict[str, float] = {}
     reasons: list[Reason] = []
+    groups: dict[str, float] = {}
+    zones: dict[str, Mapping[str, float] | None] = {}
     for classification in index.subjects(SOSA + "hasFeatureOfInterest", segment):
         for distribution in index.all(classification, SOSA + "hasResult"):
             for node in index.all(distribution, SL + "hasProbability"):
-                p = _number(index, node, SL + "probability")
-                probabilities[_named(index, node, SL + "environment")] = p
+                name = _named(index, node, SL + "environment")
+                probabilities[name] = _number(index, node, SL + "probability")
+                if below := _chained(index, node, "hasZoneProbability"):
+                    zones[name] = below
+                elif index.text(node, SL + "zonesToldApart") == "false":
+                    zones[name] = None
+            groups = _chained(index, distribution, "hasGroupProbability")
         reasons += _reasons(index, classification)
     return in_order(
         Explanation(
@@ -123,8 +158,36 @@ def _segment(index: Index, segment: str) -> Explanation:
             environment=None if environment is None else _name(index, environment),
             probabilities=probabilities,
             reasons=tuple(reasons),
+            chain=_chain(index, probabilities, groups, zones),
         )
     )
+
+
+def _chained(index: Index, node: str, link: str) -> dict[str, float]:
+    """Zone or group -> the probability that a node links to."""
+    return {
+        _named(index, each, SL + "environment"): _number(index, each, SL + "probability")
+        for each in index.all(node, SL + link)
+    }
+
+
+def _chain(
+    index: Index,
+    probabilities: Mapping[str, float],
+    groups: Mapping[str, float],
+    zones: Mapping[str, Mapping[str, float] | None],
+) -> Chain | None:
+    """The chain of a segment; None where the file tells none, as without reasons."""
+    if not groups and not zones:
+        return None
+    by_name = {_name(index, e): e for e in index.subjects(RDFS + "subClassOf", SL + "Environment")}
+    grouped = {
+        name
+        for name in probabilities
+        if any(_name(index, c) in groups for c in index.all(by_name[name], RDFS + "subClassOf"))
+    }
+    alone = {name: p for name, p in probabilities.items() if p and name not in grouped}
+    return chain_of({**groups, **alone}, zones)
 
 
 def _reasons(index: Index, classification: str) -> list[Reason]:

@@ -1,42 +1,30 @@
-"""Explanations in three lengths: a line, a paragraph, and everything that is known."""
+"""Explanations over HTTP: an account of a segment, as many words as asked for."""
 
 from __future__ import annotations
 
+from typing import Any
+
+from symboslam.engine.account import full_account
+from symboslam.engine.account_formats import record_of
 from symboslam.engine.environment_map import EnvironmentMap
-from symboslam.engine.explanation import Explanation
-from symboslam.engine.wording import summary, tell
 
-_FEW, _ALL = 3, 10_000
+NAMED = {"line": 3, "paragraph": 3, "full": 10_000}
+"""How many classes are named for the environment of a segment."""
 
 
-def text_of(
-    segment: EnvironmentMap, explanation: Explanation, length: str, against: str | None = None
-) -> str:
-    """An explanation in words.
+def explained(
+    found: EnvironmentMap, segment: str, length: str, against: str | None, counterfactual: bool
+) -> dict[str, Any]:
+    """Why a segment is what it is, as plain values.
 
     Args:
-        segment: a map with the segment.
-        explanation: of it.
-        length: ``line``, ``paragraph``: the strongest reasons for it and for what comes second;
-            or ``full``: all of them, the whole distribution, and where each reason is from.
+        found: a map with the segment and the landmarks around it.
+        segment: its id.
+        length: of the words: ``line``, ``paragraph`` or ``full``.
         against: the environment to compare with; None takes the one that comes second.
+        counterfactual: whether to look for changes that make it something else.
     """
-    why = segment.knowledge.find_indication
-    if length == "line":
-        return summary(explanation)
-    if length == "paragraph":
-        return tell(explanation, why, against=against, limit=_FEW)
-    lines = [tell(explanation, why, against=against, limit=_ALL)]
-    if explanation.probabilities:
-        lines.append("All probabilities:")
-        ranked = sorted(explanation.probabilities.items(), key=lambda pair: -pair[1])
-        lines += [f"  {chance:.4f}  {name}" for name, chance in ranked]
-    sources = {
-        f"  {reason.label} > {name}: {found.source}"
-        for reason in explanation.reasons
-        for name in reason.contribution
-        if (found := why(reason.feature, name)) is not None and found.source
-    }
-    if sources:
-        lines += ["Where the strengths are from:", *sorted(sources)]
-    return "\n".join(lines)
+    account = full_account(
+        found, segment, against=against, limit=NAMED[length], counterfactual=counterfactual
+    )
+    return record_of(account, length)

@@ -7,6 +7,8 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator
 
+from symboslam.engine.account import Change, Difference, LandmarkPart, PairPart, Side
+from symboslam.reasoning.knowledge import Indication
 from symboslam.service.maps.openapi import TEXT
 
 _STRICT = ConfigDict(extra="forbid", strict=True)
@@ -178,8 +180,16 @@ class ReasonInfo(BaseModel):
     contribution: dict[str, float]
 
 
+class ChainInfo(BaseModel):
+    """The probabilities above and below environment types."""
+
+    groups: dict[str, float]
+    zones: dict[str, dict[str, float]]
+    untold: list[str]
+
+
 class ExplanationInfo(BaseModel):
-    """Why a segment is what it is."""
+    """Why a segment is what it is; docs/evidence.md says what each number is."""
 
     segment: str
     environment: str | None
@@ -187,6 +197,16 @@ class ExplanationInfo(BaseModel):
     override: OverrideInfo | None
     text: str
     reasons: list[ReasonInfo]
+    runner_up: str | None
+    chain: ChainInfo | None
+    why: Side | None
+    against: Side | None
+    difference: float | None = Field(description="P(environment) - P(against).")
+    differences: list[Difference] = Field(description="They sum to `difference`.")
+    landmarks: list[LandmarkPart] = Field(description="The strongest ones.")
+    pairs: list[PairPart] = Field(description="The strongest ones.")
+    counterfactuals: list[Change] | None = Field(description="Null unless asked for.")
+    indications: list[Indication] = Field(description="The axioms behind the reasons.")
 
 
 class JobInfo(BaseModel):

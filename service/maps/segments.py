@@ -19,14 +19,13 @@ from symboslam.errors import UnknownNameError
 from symboslam.service.auth import CanQuery, CanUpdate
 from symboslam.service.json_body import JSONRoute
 from symboslam.service.maps import openapi
-from symboslam.service.maps.explaining import text_of
+from symboslam.service.maps.explaining import explained
 from symboslam.service.maps.maps import base_of
 from symboslam.service.maps.models import (
     ExplanationInfo,
     Length,
     OverrideInfo,
     OverrideRequest,
-    ReasonInfo,
 )
 from symboslam.service.maps.records import Override
 from symboslam.service.maps.routes import CurrentMap, CurrentMaps
@@ -134,10 +133,12 @@ async def explain(
     segment: str,
     length: Length = "paragraph",
     against: Annotated[str | None, Query(max_length=200)] = None,
+    counterfactual: bool = False,
 ) -> ExplanationInfo:
     """Why a segment is what it is: in one line, a paragraph or in full; its reasons add up to P.
 
-    With `Accept: text/plain` the text alone.
+    With `counterfactual` also which small changes of landmarks would make it something else, or
+    `against` if that is given. With `Accept: text/plain` the text alone.
     """
     found = await _segment(running, segment)
     names = [e.name for e in found.environments]
@@ -145,28 +146,18 @@ async def explain(
         detail = f"against: no environment {against!r}; there are {', '.join(names)}"
         raise Problem(422, "invalid-parameter", detail)
     override = override_of(segment, await _overrides(running, maps))
-    told = await asyncio.to_thread(found.explain, segment)
-    text = await asyncio.to_thread(text_of, found, told, length, against)
+    record = await asyncio.to_thread(explained, found, segment, length, against, counterfactual)
     shown = None if override is None else _info(override, running)
+    text = record["text"]
     if shown is not None:
         stated = shown.environment or "unknown"
         because = f": {shown.reason}" if shown.reason else ""
         text = f"{shown.operator} says that it is {stated}{because}.\n{text}"
     if request.headers.get("accept", "").startswith("text/plain"):
         return Response(text + "\n", media_type="text/plain; charset=utf-8")  # type: ignore[return-value]
-    return ExplanationInfo(
-        segment=segment,
-        environment=told.environment,
-        probabilities=dict(told.probabilities),
-        override=shown,
-        text=text,
-        reasons=[
-            ReasonInfo(
-                feature=r.feature, label=r.label, count=r.count, contribution=dict(r.contribution)
-            )
-            for r in told.reasons
-        ],
-    )
+    segment = record.pop("segment_id")
+    told = {**record, "segment": segment, "text": text, "override": shown}
+    return ExplanationInfo.model_validate(told)
 
 
 @router.get("/overrides", summary="Overrides")

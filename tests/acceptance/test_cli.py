@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from rdflib import RDF, Graph, Namespace
 
 import symboslam
 from symboslam.errors import InputError, ReasonerError, ServiceError
@@ -100,6 +101,89 @@ def test_explain_reads_what_classify_wrote(
     assert wrong.code == 2
     assert "Residential" in wrong.err  # lists what there is
     assert run("explain", out, name, "--limit", -1).code == 2
+
+
+@pytest.fixture
+def explained(town: Path, tmp_path: Path) -> tuple[Path, str]:
+    """A map of the town and one of its segments, a residential one."""
+    out = tmp_path / "explained.geojson"
+    knowledge = symboslam.Knowledge.load()
+    found = symboslam.classify(symboslam.read_landmarks(town, knowledge), knowledge, cells=8)
+    symboslam.write_map(found, out)
+    return out, next(
+        f["properties"]["segment_id"]
+        for f in json.loads(out.read_text())["features"]
+        if f["properties"]["environment"] == "Residential"
+    )
+
+
+def test_explain_in_three_lengths(run: Any, town: Path, explained: tuple[Path, str]) -> None:
+    out, name = explained
+    line, paragraph, full = (
+        run("explain", out, name, "--length", length).out
+        for length in ("line", "paragraph", "full")
+    )
+    assert line.startswith(f"Segment {name} is Residential (P = ")
+    assert line.count("\n") == 1
+    assert paragraph == run("explain", out, name).out
+    assert "All probabilities:" not in paragraph
+    for part in ("All probabilities:", "Why Residential rather than", "What the ontology states:"):
+        assert part in full
+    assert "The strongest landmarks" not in full  # the map does not say where they are
+    more = run("explain", out, name, "--length", "full", "--landmarks", town)
+    assert more.code == 0, more.err
+    assert "The strongest landmarks for Residential:" in more.out
+    assert run("explain", out, name, "--length", "word").code == 2
+
+
+def test_explain_in_three_formats(run: Any, explained: tuple[Path, str]) -> None:
+    out, name = explained
+    text, numbers, turtle = (
+        run("explain", out, name, "--format", form) for form in ("text", "json", "ttl")
+    )
+    assert text.out == run("explain", out, name).out
+    assert numbers.out == run("explain", out, name, "--json").out
+    told = json.loads(numbers.out)
+    assert (told["segment_id"], told["environment"]) == (name, "Residential")
+    graph = Graph().parse(data=turtle.out, format="turtle")
+    sl = Namespace("https://w3id.org/symboslam#")
+    (found,) = graph.subjects(RDF.type, sl.SegmentExplanation)
+    assert graph.value(found, sl.environment) == sl.Residential
+    said = {
+        str(graph.value(node, sl.environment)).partition("#")[2]: float(
+            str(graph.value(node, sl.probability))
+        )
+        for node in graph.objects(found, sl.hasProbability)
+    }
+    assert said == pytest.approx(told["probabilities"], abs=1e-6)
+    assert run("explain", out, name, "--format", "xml").code == 2
+
+
+def test_explain_tells_what_would_change_it(
+    run: Any, town: Path, explained: tuple[Path, str], tmp_path: Path
+) -> None:
+    out, name = explained
+    asked = ("explain", out, name, "--landmarks", town, "--counterfactual")
+    told = run(*asked)
+    assert told.code == 0, told.err
+    assert "It would be something else" in told.out
+    changes = json.loads(run(*asked, "--json").out)["counterfactuals"]
+    assert changes
+    assert all(c["environment"] != "Residential" for c in changes)
+    only = json.loads(run(*asked, "--against", "Commercial", "--json").out)["counterfactuals"]
+    assert {c["environment"] for c in only} == {"Commercial"}
+
+    alone = run("explain", out, name, "--counterfactual")
+    assert alone.code == 2
+    assert "--landmarks FILE" in alone.err
+    data = json.loads(town.read_text())
+    data["features"] = data["features"][:-1]
+    fewer = tmp_path / "fewer.geojson"
+    fewer.write_text(json.dumps(data))
+    other = run("explain", out, name, "--landmarks", fewer)
+    assert other.code == 2  # not the landmarks that the map was made from
+    assert other.err.count("\n") == 1
+    assert run("explain", out, name, "--landmarks", tmp_path / "none.geojson").code == 2
 
 
 def test_a_map_without_reasons_says_how_to_get_them(run: Any, town: Path, tmp_path: Path) -> None:

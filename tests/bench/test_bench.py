@@ -16,7 +16,15 @@ def run(*arguments: str) -> subprocess.CompletedProcess[str]:
     )
 
 
-CASES = ("evidence", "classification", "growth", "segmentation", "start-up", "evaluation")
+CASES = (
+    "evidence",
+    "classification",
+    "growth",
+    "segmentation",
+    "start-up",
+    "evaluation",
+    "explanations",
+)
 
 
 @pytest.mark.parametrize("case", CASES)

@@ -71,3 +71,31 @@ def landmarks_at(knowledge: Knowledge) -> Maker:
         )
 
     return make
+
+
+@pytest.fixture(scope="session")
+def bundled() -> Knowledge:
+    """What ships with the package."""
+    return Knowledge.load()
+
+
+@pytest.fixture(scope="session")
+def area(bundled: Knowledge) -> Maker:
+    """Make a LandmarkMap of the bundled ontology's features, as ``landmarks_at`` does."""
+
+    def make(
+        rows: Sequence[tuple[object, ...]],
+        bbox: tuple[float, float, float, float] = (0, 0, 240, 240),
+    ) -> LandmarkMap:
+        index = [bundled.index_of(str(row[0])) for row in rows]
+        assert None not in index
+        numbers = np.array([[*row[1:3], row[3] if len(row) > 3 else 1.0] for row in rows], float)
+        x, y, confidence = numbers.reshape(-1, 3).T
+        return LandmarkMap(
+            feature=np.array(index, np.int32), x=x, y=y, confidence=confidence,
+            static=np.ones(len(rows), bool),
+            id=np.array([f"n{i}" for i in range(len(rows))], dtype=np.str_),
+            frame=Frame.metric(), bbox=bbox,
+        )  # fmt: skip
+
+    return make

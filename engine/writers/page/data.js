@@ -134,6 +134,15 @@ class MapData {
     });
   }
 
+  /** Zones of the environment of segment i: [[zone, P], ...], none where not told; or null. */
+  zones(i) {
+    const rows = this.raw.segments.zones;
+    if (!rows) return null;
+    const found = [];
+    for (let j = 0; j < rows[i].length; j += 2) found.push([rows[i][j], rows[i][j + 1] / PARTS]);
+    return found;
+  }
+
   /** The environment that a feature indicates most, or -1. */
   foremost(f) {
     const first = this.features[f].indicates[0];

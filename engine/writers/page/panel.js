@@ -65,6 +65,7 @@ class Panel {
       lead,
       this.special(i),
       this.distribution(i, order, k, other),
+      this.levels(i, k),
       this.why(i, k),
       other >= 0 ? this.whyNot(i, k, other) : null,
       this.insideList(i),
@@ -127,6 +128,27 @@ class Panel {
       el("h3", { text: "Probabilities" }),
       el("ul", { class: "bars" }, ...order.slice(0, shown).map(row)),
       rest.length ? el("details", {}, el("summary", { text: `${many(rest.length, "more environment")}` }), el("ul", { class: "bars" }, ...rest.map(row))) : null);
+  }
+
+  /** The coarser area of the winner, and its plan zones where the evidence tells them apart. */
+  levels(i, k) {
+    const { data } = this, { raw } = data, zones = data.zones(i), group = data.envs[k].group;
+    if (!zones) return null;
+    const members = data.envs.map((env, j) => j).filter((j) => data.envs[j].group === group);
+    const p = members.reduce((sum, j) => sum + data.p(i, j), 0);
+    const above = group ? el("p", { class: "quiet", text: `${group} in all: ${percent(p)}.` }) : null;
+    const row = ([zone, share]) => el("li", { title: raw.zones[zone].definition },
+      el("span", { class: "bar static" },
+        el("span", { class: "bar-name", text: raw.zones[zone].label }),
+        el("span", { class: "track" }, el("span", { class: "fill", colour: data.envs[k].colour, width: (share / Math.max(data.p(i, k), 1e-9)) * 100 })),
+        el("span", { class: "bar-value", text: percent(share) })));
+    if (!data.envs[k].zoned && !above) return null;
+    const below = zones.length ? el("ul", { class: "bars" }, ...zones.map(row))
+      : el("p", { class: "quiet", text: "The evidence does not tell its zones apart." });
+    return el("section", { id: "levels" },
+      el("h3", { text: data.envs[k].zoned ? "Plan zone" : "Kind of area" }),
+      data.envs[k].zoned ? below : null,
+      above);
   }
 
   why(i, k) {

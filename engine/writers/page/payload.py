@@ -52,7 +52,9 @@ def payload(environment_map: EnvironmentMap, reasons: int) -> dict[str, Any]:
     quantiser = Quantiser.for_bounds(bounds)
     features = Features(environment_map)
     segments = _segments(environment_map, quantiser)
-    segments["reasons"] = _reasons(environment_map, features, reasons)
+    segments["reasons"], segments["zones"] = _told(environment_map, features, reasons)
+    groups = {g.name: g.label for g in environment_map.knowledge.groups}
+    zones = environment_map.knowledge.zones
     drawn = len(landmarks) <= DOTS
     surveyed = landmarks.surveyed
     return {
@@ -78,9 +80,12 @@ def payload(environment_map: EnvironmentMap, reasons: int) -> dict[str, Any]:
                 "label": e.label or e.name,
                 "definition": e.definition,
                 "colour": colour(e.colour),
+                "group": groups.get(environment_map.zoning.group_of[e.name], ""),
+                "zoned": bool(zones is not None and e.name in zones.schemes),
             }
             for e in environment_map.environments
         ],
+        "zones": _zones(environment_map),
         "segments": segments,
         "regions": regions(environment_map.geometry, environment_map.label, quantiser),
         "count": len(landmarks),
@@ -183,19 +188,44 @@ def _segments(environment_map: EnvironmentMap, quantiser: Quantiser) -> dict[str
     }
 
 
-def _reasons(environment_map: EnvironmentMap, features: Features, most: int) -> list[Any] | None:
-    """For each segment [feature, count, environment, share, environment, share ...], or None."""
+def _told(
+    environment_map: EnvironmentMap, features: Features, most: int
+) -> tuple[list[Any] | None, list[Any] | None]:
+    """For each segment its reasons and the zones of its environment; None without reasons.
+
+    Reasons are [feature, count, environment, share, environment, share ...]; zones are [zone,
+    share, zone, share ...], the most probable first, none where they are not told apart.
+    """
     total = len(environment_map)
     limit = min(most, REASONS // max(total, 1))
     if limit < 1:
-        return None
+        return None, None
     env = {e.name: k for k, e in enumerate(environment_map.environments)}
+    number = {zone["name"]: i for i, zone in enumerate(_zones(environment_map))}
     rows: list[Any] = []
+    zones: list[Any] = []
     for start in range(0, total, CHUNK):
         positions = range(start, min(start + CHUNK, total))
-        for reasons in environment_map.reasons(positions):
+        for i, (reasons, shares) in zip(positions, environment_map.told(positions), strict=True):
             rows.append([_reason(r, env, features) for r in _strongest(reasons, limit)])
-    return rows
+            winner = environment_map.name_of(i)
+            found = shares.get(winner) if winner else None
+            chance = float(environment_map.probability[i].max())
+            ranked = sorted((found or {}).items(), key=lambda pair: -pair[1])
+            parts = [(number[zone], round(share * chance * PARTS)) for zone, share in ranked]
+            zones.append([n for part in parts if part[1] for n in part])
+    return rows, zones
+
+
+def _zones(environment_map: EnvironmentMap) -> list[dict[str, str]]:
+    """The plan zones of the map's environments."""
+    table = environment_map.knowledge.zones
+    return [
+        {"name": z.name, "label": z.label or z.name, "definition": z.definition}
+        for e in environment_map.environments
+        if table is not None and e.name in table.schemes
+        for z in table.scheme(e.name)
+    ]
 
 
 def _strongest(reasons: Sequence[Reason], limit: int) -> list[Reason]:

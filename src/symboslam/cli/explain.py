@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from symboslam.cli.common import show
+from symboslam.cli.common import OntologyOption, bbox_of, load_knowledge, progress_bar, show
+from symboslam.errors import InputError
+
+if TYPE_CHECKING:
+    from symboslam.engine.account import Account
+    from symboslam.engine.writers.stored import StoredMap
 
 EXAMPLES = """
 [bold]Examples[/]
@@ -16,7 +20,16 @@ EXAMPLES = """
 symboslam explain map.geojson 3-12-7
 
 symboslam explain map.ttl 3-12-7 --against Commercial
+
+symboslam explain map.geojson 3-12-7 --length line
+
+symboslam explain map.geojson 3-12-7 --landmarks town.geojson --length full
+
+symboslam explain map.geojson 3-12-7 --landmarks town.geojson --counterfactual
+
+symboslam explain map.geojson 3-12-7 --format ttl > why.ttl
 """
+ALL = 10_000
 
 
 def explain(
@@ -28,20 +41,94 @@ def explain(
         str | None,
         typer.Option(help="Environment to compare with.", show_default="the runner-up"),
     ] = None,
-    limit: Annotated[int, typer.Option(min=1, help="Kinds of landmarks to name.")] = 6,
-    as_json: Annotated[bool, typer.Option("--json", help="Print the numbers as JSON.")] = False,
+    limit: Annotated[
+        int | None,
+        typer.Option(min=1, help="Kinds of landmarks to name.", show_default="6; all if full"),
+    ] = None,
+    length: Annotated[
+        Literal["line", "paragraph", "full"], typer.Option(help="How much to tell.")
+    ] = "paragraph",
+    counterfactual: Annotated[
+        bool,
+        typer.Option(
+            "--counterfactual",
+            help="Look for small changes of landmarks that would make it something else; needs "
+            "[bold]--landmarks[/].",
+        ),
+    ] = False,
+    landmarks: Annotated[
+        str | None,
+        typer.Option(
+            metavar="FILE",
+            help="The landmarks that the map was made from, to tell what each of them adds.",
+        ),
+    ] = None,
+    bbox: Annotated[
+        str | None,
+        typer.Option(metavar="W,S,E,N", help="Area, if the map was made with one."),
+    ] = None,
+    crs: Annotated[
+        str | None, typer.Option(help="Coordinates of the landmarks, if given for the map.")
+    ] = None,
+    ontology: OntologyOption = None,
+    form: Annotated[
+        Literal["text", "json", "ttl"],
+        typer.Option("--format", help="Words, numbers, or RDF in the terms of the ontology."),
+    ] = "text",
+    as_json: Annotated[bool, typer.Option("--json", help="The same as --format json.")] = False,
 ) -> None:
     """Tell why a segment is what it is, and why it is not something else."""
-    from symboslam.engine.wording import tell
+    from symboslam.engine.account_formats import as_json as json_of
+    from symboslam.engine.account_formats import as_turtle
+    from symboslam.engine.wording import text_of
     from symboslam.engine.writers.stored import read_map
 
     stored = read_map(source)
     found = stored.explain(segment)
     if against is not None:
         against = stored.environment_of(against)
-    if as_json:
-        from dataclasses import asdict
-
-        typer.echo(json.dumps(asdict(found), indent=1, ensure_ascii=False))
+    names = limit or (ALL if length == "full" else 6)
+    iris = dict(stored.iris)
+    if landmarks is not None:
+        place = bbox_of(bbox)
+        told, more = _restored(
+            stored, landmarks, ontology, crs, place, (segment, against, names, counterfactual)
+        )
+        iris |= more
+    elif counterfactual:
+        raise InputError(
+            f"{source} does not say where each landmark is and what it adds: give the landmarks "
+            "that it was made from, --landmarks FILE"
+        )
     else:
-        show(tell(found, stored.find_indication, against=against, limit=limit))
+        from symboslam.engine.account import account_of
+
+        told = account_of(found, stored.find_indication, against=against, limit=names)
+    if as_json or form == "json":
+        typer.echo(json_of(told, length))
+    elif form == "ttl":
+        typer.echo(as_turtle(told, iris, length), nl=False)
+    else:
+        show(text_of(told, length))
+
+
+def _restored(
+    stored: StoredMap,
+    landmarks: str,
+    ontology: Path | None,
+    crs: str | None,
+    bbox: tuple[float, float, float, float] | None,
+    wanted: tuple[str, str | None, int, bool],
+) -> tuple[Account, dict[str, str]]:
+    """The account of a segment from the map's landmarks, and IRIs of all features by name."""
+    from symboslam.engine.account import full_account
+    from symboslam.engine.readers import read_landmarks
+    from symboslam.engine.writers.restored import restored
+
+    segment, against, limit, counterfactual = wanted
+    with progress_bar() as progress:
+        knowledge = load_knowledge(ontology, progress)
+        marks = read_landmarks(landmarks, knowledge, crs=crs, bbox=bbox, progress=progress)
+        found = restored(stored, marks, knowledge)
+    told = full_account(found, segment, against=against, limit=limit, counterfactual=counterfactual)
+    return told, {feature.name: feature.iri for feature in knowledge.features}

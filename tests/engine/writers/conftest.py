@@ -12,12 +12,19 @@ import pytest
 import shapely
 
 from symboslam.engine._base import Evidence
+from symboslam.engine.chain import Shares
 from symboslam.engine.environment_map import EnvironmentMap
 from symboslam.engine.explanation import Reason
 from symboslam.engine.frame import Frame
 from symboslam.engine.grid import Cells
 from symboslam.engine.landmarks import LandmarkMap, ReadReport
-from symboslam.reasoning.knowledge import Environment, Feature, Indication, Knowledge
+from symboslam.reasoning.knowledge import (
+    Environment,
+    EnvironmentGroup,
+    Feature,
+    Indication,
+    Knowledge,
+)
 
 SL = "https://w3id.org/symboslam#"
 ENVIRONMENTS = (
@@ -56,10 +63,23 @@ KNOWLEDGE = Knowledge(
     environments=ENVIRONMENTS,
     features=FEATURES,
     indications=INDICATIONS,
-    proximities={},
+    proximities={"path": np.zeros((4, 3))},
     schemes={"all": tuple(e.name for e in ENVIRONMENTS)},
     absence=("OpenGround",),
     source_hash="ab" * 32,
+    groups=(
+        EnvironmentGroup(SL + "Urban", "Urban", "Urban", "Built.", ("Commercial", "Residential")),
+    ),
+    zones=Knowledge(
+        environments=tuple(
+            Environment(SL + name, name, f"{name} zone", "A zone.")
+            for name in ("NUZ1", "NUZ2", "RZ1", "RZ2")
+        ),
+        features=FEATURES,
+        indications=(),
+        proximities={"path": np.zeros((4, 4))},
+        schemes={"Residential": ("RZ1", "RZ2"), "NonUrban": ("NUZ1", "NUZ2")},
+    ),
 )
 
 Given = Mapping[int, tuple[Reason, ...]]
@@ -70,10 +90,8 @@ class HandMadeMap(EnvironmentMap):
 
     given: ClassVar[Given] = {}
 
-    def reasons(
-        self, segments: Sequence[int], limit: int | None = None
-    ) -> list[tuple[Reason, ...]]:
-        return [self.given.get(i, ())[:limit] for i in segments]
+    def told(self, segments: Sequence[int]) -> list[tuple[tuple[Reason, ...], Shares]]:
+        return [(self.given.get(i, ()), SHARES.get(i, {})) for i in segments]
 
 
 def make_map(
@@ -158,6 +176,11 @@ REASONS: Given = {
     ),
     1: (Reason("Shop", "shop", 1, {"Commercial": 1.0}),),
     3: (Reason("OpenGround", "open ground", 0, {"NonUrban": 1.0}),),
+}
+# In segment 0 the zones of Residential are told apart: 0.7 = 0.35 + 0.35.
+SHARES: Mapping[int, Shares] = {
+    0: {"Residential": {"RZ1": 0.5, "RZ2": 0.5}, "NonUrban": None},
+    3: {"NonUrban": {"NUZ1": 0.0, "NUZ2": 1.0}},
 }
 LANDMARKS = (
     (0, -60.0, -60.0, 1.0),

@@ -22,7 +22,7 @@ from symboslam.engine.explanation import Reason
 from symboslam.engine.frame import Frame
 from symboslam.engine.landmarks import ReadReport
 from symboslam.engine.writers import write_map
-from symboslam.engine.writers.content import MILLION, Content, millionths, rounded
+from symboslam.engine.writers.content import MILLION, Content, divided, millionths, rounded
 from symboslam.engine.writers.geojson import to_geojson
 
 Make = Callable[..., EnvironmentMap]
@@ -138,7 +138,30 @@ def test_what_the_map_was_made_of(town: EnvironmentMap) -> None:
         "reason": "A Shop is often in Commercial.",
         "source": "https://w3id.org/symboslam#source-judgement",
         "source_iri": "",
+        "stands": "",
     }
+    assert about["levels"]["Urban"]["members"] == ["Commercial", "Residential"]
+    assert about["levels"]["RZ2"]["within"] == "Residential"
+
+
+def test_chains_add_up_to_the_digit(town: EnvironmentMap) -> None:
+    home, shop, unknown, ground = by_id(to_geojson(town, reasons=8)).values()
+    assert home["chain"] == {
+        "groups": {"Urban": 0.8, "NonUrban": 0.2},
+        "zones": {"Residential": {"RZ1": 0.35, "RZ2": 0.35}, "NonUrban": None},
+    }
+    assert shop["chain"] == {"groups": {"Urban": 1.0}, "zones": {}}
+    assert "chain" not in unknown
+    assert ground["chain"]["zones"] == {"NonUrban": {"NUZ2": 1.0}}
+    assert all("chain" not in each for each in by_id(to_geojson(town, reasons=0)).values())
+
+
+@given(st.integers(0, 10**6), st.lists(st.floats(0, 1), min_size=1, max_size=6).filter(any))
+def test_a_divided_whole_is_whole(whole: int, parts: list[float]) -> None:
+    shares = {f"z{i}": part / sum(parts) for i, part in enumerate(parts)}
+    found = divided(whole, shares)
+    assert sum(found.values()) == whole
+    assert all(abs(found.get(name, 0) - whole * share) < 1 for name, share in shares.items())
 
 
 def test_empty_map(empty: EnvironmentMap, tmp_path: Path) -> None:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from symboslam.engine._base import Evidence
+from symboslam.engine.chain import Shares
 from symboslam.engine.environment_map import EnvironmentMap
 from symboslam.engine.explanation import Reason
 from symboslam.engine.frame import Frame
@@ -94,10 +95,8 @@ class FieldMap(EnvironmentMap):
     parts: NDArray[np.float64]
     counts: NDArray[np.int64]
 
-    def reasons(
-        self, segments: Sequence[int], limit: int | None = None
-    ) -> list[tuple[Reason, ...]]:
-        return [self._reasons(i)[:limit] for i in segments]
+    def told(self, segments: Sequence[int]) -> list[tuple[tuple[Reason, ...], Shares]]:
+        return [(self._reasons(i), {}) for i in segments]
 
     def _reasons(self, i: int) -> tuple[Reason, ...]:
         found = [
