@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +22,7 @@ from numpy.typing import NDArray
 from symboslam.reasoning.knowledge import Knowledge
 
 Floats = NDArray[np.float64]
+T = TypeVar("T", int, float)
 Shares = Mapping[str, Mapping[str, float] | None]
 """Environment name -> zone name -> share of it; None where the zones are not told apart."""
 MAJORITY = 0.5
@@ -98,12 +100,16 @@ class Zoning:
         for k, part, _ in self._zones:
             self._says[:, k] = self._passed[:, part].any(1)
 
-    def groups(self, probability: Floats) -> dict[str, float]:
-        """Coarser area -> P, in the order of the environments; those with 0 are left out."""
-        found: dict[str, float] = {}
-        for name, p in zip(self.group_of.values(), probability.tolist(), strict=True):
+    def groups(self, chances: Mapping[str, T]) -> dict[str, T]:
+        """Coarser area -> P, from environment name -> P; those with 0 are left out.
+
+        P may be in any unit, such as whole millionths.
+        """
+        found: dict[str, T] = {}
+        for name, p in chances.items():
             if p:
-                found[name] = found.get(name, 0.0) + p
+                group = self.group_of[name]
+                found[group] = found[group] + p if group in found else p
         return found
 
     def shares(self, classes: NDArray[np.int64], parts: Floats, total: Floats) -> Shares:
@@ -133,7 +139,7 @@ class Zoning:
         None where it is unknown, and where there are neither groups nor zones to tell of.
         """
         p = dict(zip(self._names, probability.tolist(), strict=True))
-        groups = self.groups(probability)
+        groups = self.groups(p)
         if not self.tells_more(groups, shares):
             return None
         return Chain(
@@ -146,7 +152,7 @@ class Zoning:
             untold=tuple(sorted(n for n, found in shares.items() if found is None and p[n] > 0)),
         )
 
-    def tells_more(self, groups: Mapping[str, float], shares: Shares) -> bool:
+    def tells_more(self, groups: Mapping[str, object], shares: Shares) -> bool:
         """Whether a segment with such groups and zones is in any."""
         return bool(shares or groups.keys() - self.group_of.keys())
 

@@ -8,11 +8,13 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import fields
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from symboslam.engine._base import Evidence
+from symboslam.engine.evidence import PairEvidence
 from symboslam.engine.field import CLOSE, FieldEvidence
 from symboslam.engine.fragments import FragmentEvidence, Fragments
 from symboslam.engine.grid import Cells, Grid
@@ -29,8 +31,6 @@ Sets = NDArray[np.bool_]
 """(b, q) which of q landmarks each of b sets has."""
 AT_ONCE = 500_000
 """Numbers in the largest array that a block of sets may need."""
-TOLERANCE = 1e-9
-"""How far, relatively, the evidence made here may be from the map's own."""
 
 
 class LocalEvidence(ABC):
@@ -49,7 +49,7 @@ class LocalEvidence(ABC):
     """
 
     def __init__(self, environment_map: EnvironmentMap, position: int) -> None:
-        self._map, self._position = environment_map, position
+        self._map = environment_map
         self._region = environment_map.regions.take(np.array([position]))
         parts = next(environment_map.contributions([position]))
         self.landmark, self.own, self.pairs, self.ground = (
@@ -202,21 +202,13 @@ class LocalPairs(LocalEvidence):
         scale = self._settings.a * self._weight
         zeros = np.zeros_like(scale)
         self._near = np.divide(self.pairs * n, scale, out=zeros, where=scale > 0)
-        self._diagonal = self._diagonal_behind()
+        self._diagonal = self._diagonal_in_metres()
 
-    def _diagonal_behind(self) -> float:
-        """The region's diagonal: the cell's, or what the nearness of its landmarks tells."""
-        if isinstance(self._region, Cells):
-            grid = Grid(self._map.landmarks.bbox, self._settings.cells)
-            west, south, east, north = grid.rectangles(self._region)
-            return float(np.hypot(east - west, north - south)[0])
-        far = (np.maximum(self._size - 1, 0) - self._near) * self._member  # sums of d / diagonal
-        if not far.size or far.max() <= 0:
-            west, south, east, north = self._map.geometry[self._position].bounds
-            return float(np.hypot(east - west, north - south))  # no pairs, or all in one place
-        x, e = np.unravel_index(far.argmax(), far.shape)
-        apart = np.hypot(*(self._xy - self._xy[x]).T)
-        return float(apart @ self._member[:, e] / far[x, e])
+    def _diagonal_in_metres(self) -> float:
+        assert isinstance(self._region, Cells)
+        grid = Grid(self._map.landmarks.bbox, self._settings.cells)
+        west, south, east, north = grid.rectangles(self._region)
+        return float(np.hypot(east - west, north - south)[0])
 
     def _similar(self, xy: Floats) -> Floats:
         """(q, m) 1 - d between some places and the landmarks."""
@@ -266,7 +258,7 @@ class LocalFragment(LocalPairs):
         strongest = proximity.max(1, keepdims=True, initial=0)
         return np.where(proximity < self._settings.relevance * strongest, 0, proximity)
 
-    def _diagonal_behind(self) -> float:
+    def _diagonal_in_metres(self) -> float:
         assert isinstance(self._region, Fragments)
         return float(self._region.diagonal[0]) or 1.0  # all in one place: no distance counts
 
@@ -283,23 +275,23 @@ class LocalFragment(LocalPairs):
         return found
 
 
+_KINDS: dict[type[Evidence[Any]], type[LocalEvidence]] = {
+    FieldEvidence: LocalField,
+    FragmentEvidence: LocalFragment,
+    PairEvidence: LocalPairs,
+}
+
+
 def local_evidence(environment_map: EnvironmentMap, position: int) -> LocalEvidence:
     """The evidence around one segment.
 
     Raises:
         InputError: the map's evidence is of a kind that is not known here.
     """
-    evidence = environment_map.evidence
-    kind: type[LocalEvidence] = LocalPairs
-    if isinstance(evidence, FieldEvidence):
-        kind = LocalField
-    elif isinstance(evidence, FragmentEvidence):
-        kind = LocalFragment
-    found = kind(environment_map, position)
-    made = found.without(np.zeros(0, np.int64), np.zeros((1, 0), np.bool_))[0]
-    if not np.allclose(made, found.total, rtol=TOLERANCE, atol=TOLERANCE):
+    kind = _KINDS.get(type(environment_map.evidence))
+    if kind is None:
         raise InputError(
             "what this map's evidence would be with other landmarks is not known: it is neither "
             "made from pairs nor a density"
         )
-    return found
+    return kind(environment_map, position)

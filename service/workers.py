@@ -1,9 +1,9 @@
 """The pool of processes that answer queries: killed at the time limit, and replaced.
 
 Whether a query is quick shows when it runs. Some processes are for quick ones alone: a query that
-is not done in `QUICK_SECONDS` needs one of the places for long ones, or is stopped, and begins anew
-when it has got one. So nobody who asks something simple waits for those who do not, whoever they
-are (docs/decisions/0014-quick-queries.md).
+has had a processor for `QUICK_SECONDS` needs one of the places for long ones, or is stopped, and
+begins anew when it has got one. So nobody who asks something simple waits for those who do not,
+whoever they are (docs/decisions/0014-quick-queries.md).
 """
 
 from __future__ import annotations

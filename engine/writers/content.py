@@ -138,11 +138,7 @@ class Content:
         return shown, chains
 
     def _chain(self, chances: dict[str, int], shares: Shares) -> ChainPart | None:
-        groups: dict[str, int] = {}
-        for name, n in chances.items():
-            if n:
-                group = self.map.zoning.group_of[name]
-                groups[group] = groups.get(group, 0) + n
+        groups = self.map.zoning.groups(chances)
         if not self.map.zoning.tells_more(groups, shares):
             return None
         zones: dict[str, dict[str, int] | None] = {}

@@ -160,7 +160,7 @@ class RunningMap:
             ended = datetime.fromisoformat(record.changed)
             await self._patch(*await asyncio.to_thread(self._statements.override, changed, ended))
             last = changed[-1]
-            told = {"id": last.id, "environment": last.environment or None,
+            told = {"id": last.id, "environment": last.environment,
                     "operator": last.operator, "undone": last.undone is not None}  # fmt: skip
             self.events.publish(record.revision, {"segment": segment, "override": told})
             return changed

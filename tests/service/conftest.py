@@ -111,6 +111,16 @@ def shared_service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service
         yield service
 
 
+@pytest.fixture(scope="module")
+def shared(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    """A service for the maps of a module's tests."""
+    with running(
+        data=tmp_path_factory.mktemp("maps"), admin_token=TOKEN, bundled_ontology=False,
+        workers=1, rate="",
+    ) as service:  # fmt: skip
+        yield service
+
+
 @pytest.fixture
 def service(shared_service: Service) -> Service:
     """The shared service, emptied."""

@@ -8,7 +8,6 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Iterator
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -34,15 +33,6 @@ SL = "PREFIX sl: <https://w3id.org/symboslam#> PREFIX prov: <http://www.w3.org/n
 def town() -> dict[str, Any]:
     whole = sample_area(3, 1000.0)
     return {**whole, "features": whole["features"][::4]}
-
-
-@pytest.fixture(scope="module")
-def shared(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
-    with running(
-        data=tmp_path_factory.mktemp("maps"), admin_token=ADMIN["Authorization"].split()[1],
-        bundled_ontology=False, workers=1, rate="",
-    ) as service:  # fmt: skip
-        yield service
 
 
 def make(service: Service, **given: Any) -> str:

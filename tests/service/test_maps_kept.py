@@ -4,27 +4,17 @@ from __future__ import annotations
 
 import asyncio
 import gc
-from collections.abc import Iterator
 from typing import Any, cast
 
 import pytest
 
 from symboslam.service.maps import maps as maps_module
 from symboslam.service.maps.maps import Maps
-from tests.service.conftest import ADMIN, Service, running
+from tests.service.conftest import ADMIN, Service
 from tests.service.test_maps import at, get, make, send
 
 TURTLE = {**ADMIN, "Content-Type": "text/turtle"}
 MAP = "https://w3id.org/symboslam/map/"
-
-
-@pytest.fixture(scope="module")
-def shared(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
-    with running(
-        data=tmp_path_factory.mktemp("kept"), admin_token=ADMIN["Authorization"].split()[1],
-        bundled_ontology=False, workers=1, rate="",
-    ) as service:  # fmt: skip
-        yield service
 
 
 def maps_of(service: Service) -> Maps:
