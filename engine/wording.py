@@ -21,11 +21,10 @@ def text_of(account: Account, length: str = "paragraph") -> str:
     Args:
         account: of one segment.
         length: ``line``; ``paragraph``: the strongest reasons for it and for the other; or
-            ``full``: all that the account has.
+            ``full``: all that the account has. Counterfactuals, if they were looked for, are told
+            in any length, a line each.
     """
-    if length == "line":
-        return _line(account)
-    lines = list(_paragraph(account))
+    lines = [_line(account)] if length == "line" else list(_paragraph(account))
     if length == "full":
         lines += _more(account)
     lines += _changes(account)

@@ -170,6 +170,9 @@ def test_explain_tells_what_would_change_it(
     changes = json.loads(run(*asked, "--json").out)["counterfactuals"]
     assert changes
     assert all(c["environment"] != "Residential" for c in changes)
+    first, *more = run(*asked, "--length", "line").out.splitlines()
+    assert first.startswith(f"Segment {name} is ")
+    assert len(more) >= 1 + len(changes)  # asked for, so told, however short the rest is
     only = json.loads(run(*asked, "--against", "Commercial", "--json").out)["counterfactuals"]
     assert {c["environment"] for c in only} == {"Commercial"}
 

@@ -67,7 +67,7 @@ def refused(done: Any, *words: str) -> None:
 
 
 def test_bad_input(run: Any, truth: Path, found: Path, tmp_path: Path) -> None:
-    refused(run("evaluate", truth), "1 files", "each TRUTH needs a MAP")
+    refused(run("evaluate", truth), "each TRUTH needs a MAP")
     refused(run("evaluate", truth, tmp_path / "none.geojson"), "none.geojson", "no such file")
     refused(run("evaluate", truth, tmp_path / "none.ttl"), "none.ttl", "cannot be read")
     refused(run("evaluate", truth, found, "--out", tmp_path / "r.pdf"), ".pdf", ".html")

@@ -76,7 +76,7 @@ def evaluate(
     from symboslam.engine.writers import check_targets
 
     if len(files) % 2:
-        raise InputError(f"{len(files)} files were given: each TRUTH needs a MAP after it")
+        raise InputError(f"{files[-1]}: each TRUTH needs a MAP after it")
     if bbox is not None and len(files) > 2:
         raise InputError("--bbox is for one pair: several areas cannot have the same")
     targets = out or []
