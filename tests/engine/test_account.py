@@ -239,7 +239,12 @@ def test_a_counterfactual_by_hand(knowledge: Knowledge, landmarks_at: Any) -> No
     assert set(fewer.removed) <= {0, 1, 2}
     assert [(c.environment, c.count, c.place) for c in more] == [("Work", 2, (120.0, 120.0))]
     told = text_of(full_account(found, "0-0-0", counterfactual=True), "line")
-    assert told == "Segment 0-0-0 is Home (P = 0.63): 3 x house."
+    assert told == (
+        "Segment 0-0-0 is Home (P = 0.63): 3 x house.\n"
+        "It would be something else\n"
+        "  without 2 x house: Work (P = 0.64); no smaller set does it.\n"
+        "  with 2 more x shop in its middle: Work (P = 0.54)."
+    )
     words = text_of(full_account(found, "0-0-0", counterfactual=True))
     assert "without 2 x house: Work (P = 0.64); no smaller set does it." in words
     assert "with 2 more x shop in its middle: Work (P = 0.54)." in words
