@@ -26,7 +26,7 @@ from symboslam.engine.environment_map import EnvironmentMap
 from symboslam.engine.evidence import pair_evidence
 from symboslam.engine.fragments import FragmentEvidence, Fragments
 from symboslam.engine.growth import TOLERANCE, Fragment, Members, crowding, densest, grow
-from symboslam.engine.nearest import Nearest
+from symboslam.engine.nearest import FIRST, Nearest
 from symboslam.engine.territories import territories
 from symboslam.engine.triangulation import delaunay_edges, pair_lines
 from symboslam.errors import InputError
@@ -55,6 +55,11 @@ HARD = st.one_of(
       for row in (_spread, _lattice, _level, _slope, _one_class, _heap)),
     st.lists(st.one_of(_spread, _lattice, _heap), min_size=1, max_size=60),
 )  # fmt: skip
+RING = np.array(
+    [(x, side) for x in range(-1105, 1106) for side in {math.isqrt(1105**2 - x * x) * s
+     for s in (1, -1)} if x * x + side * side == 1105**2], float
+)  # fmt: skip
+"""108 places that are exactly as far from the origin."""
 HERE = examples(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 
 
@@ -197,6 +202,25 @@ def test_nearest_is_what_sorting_gives(points: Points, random: Any) -> None:
         near.take(order[0])
         left.remove(order[0])
     assert near.find(0, 0) == []
+
+
+@pytest.mark.parametrize("where", ["one place", "two places", "a ring"])
+def test_nearest_of_more_than_a_list_at_one_distance(where: str) -> None:
+    """No list of neighbours of a fixed length proves which is first of so many that are as near."""
+    number = 20 * FIRST
+    xy = {
+        "one place": np.full((number, 2), 50.0),
+        "two places": np.column_stack([np.arange(number) % 2 * 10.0, np.zeros(number)]),
+        "a ring": RING[np.arange(number) % len(RING)],
+    }[where]
+    near, left = Nearest(xy), list(range(number))
+    while left:
+        order = sorted(left, key=lambda i: (xy[i, 0] ** 2 + xy[i, 1] ** 2, i))
+        assert near.find(0, 0, 3) == order[:3]
+        assert near.find(0, 0) == order[:1]
+        gone = order[min(len(left) % 3, len(left) - 1)]
+        near.take(gone)
+        left.remove(gone)
 
 
 @HERE
