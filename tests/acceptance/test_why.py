@@ -24,6 +24,7 @@ EXTERNAL_ENTITY = """<?xml version="1.0"?>
 """
 
 
+@pytest.mark.proof
 def test_house(run: Any) -> None:
     done = run("why", "House indicates Residential")
     assert done.code == 0
@@ -32,6 +33,7 @@ def test_house(run: Any) -> None:
     assert "A house is where people live" in done.out
 
 
+@pytest.mark.proof
 def test_line_is_right(run: Any) -> None:
     record = json.loads(run("why", "House indicates Residential", "--format", "json").out)
     (axiom,) = record["justifications"][0]["axioms"]

@@ -108,6 +108,7 @@ def test_bundled_ontology_is_clean(hermit: None) -> None:
     assert report.indications >= 300
 
 
+@pytest.mark.proof
 def test_inconsistent(hermit: None, resource: Resource) -> None:
     report = check_ontology(resource("invalid_inconsistent.ttl"))
     assert not report.consistent

@@ -40,6 +40,7 @@ def test_unsatisfiable_class(hermit: None, resource: Resource) -> None:
     )
 
 
+@pytest.mark.proof
 def test_inconsistent_ontology(hermit: None, resource: Resource) -> None:
     with pytest.raises(InconsistentOntologyError) as caught:
         Knowledge.load(resource("invalid_inconsistent.ttl"))

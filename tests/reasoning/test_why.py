@@ -121,6 +121,7 @@ def test_unsatisfiable(hermit: None, mine: Path) -> None:
     ]  # fmt: skip
 
 
+@pytest.mark.proof
 def test_inconsistent(hermit: None, tmp_path: Path) -> None:
     path = tmp_path / "bad.ttl"
     path.write_text(ONTOLOGY + "\n:one a :Shop , :Town .\n:two a :Ghost .\n:fine a :Shop .\n")
@@ -137,6 +138,7 @@ def test_inconsistent(hermit: None, tmp_path: Path) -> None:
     assert texts(found) == expected
 
 
+@pytest.mark.proof
 def test_sets_are_minimal(hermit: None, mine: Path) -> None:
     """From each set it follows; from no set without one of its axioms does it."""
     found = why("Ghost is unsatisfiable", mine, limit=4)
@@ -149,6 +151,7 @@ def test_sets_are_minimal(hermit: None, mine: Path) -> None:
         assert answers == [True, *[False] * len(fewer)]
 
 
+@pytest.mark.proof
 def test_no_set_contains_another(hermit: None, tmp_path: Path) -> None:
     """A class without members is a kind of everything, which must not hide the direct axiom."""
     path = tmp_path / "ghost.ttl"
@@ -162,6 +165,7 @@ def test_no_set_contains_another(hermit: None, tmp_path: Path) -> None:
     assert all(len(one) > 3 for one in sets if one != {"every Ghost is a Park"})
 
 
+@pytest.mark.proof
 def test_everything_follows_from_a_contradiction(hermit: None, tmp_path: Path) -> None:
     path = tmp_path / "bad.ttl"
     path.write_text(ONTOLOGY + "\n:one a :Shop , :Town .\n")
