@@ -15,7 +15,7 @@ from symboslam.errors import InputError
 from symboslam.reasoning.knowledge import Indication
 
 if TYPE_CHECKING:
-    from symboslam.engine.counterfactual import Counterfactual
+    from symboslam.engine.changes import Counterfactual
     from symboslam.engine.environment_map import EnvironmentMap
     from symboslam.engine.local import LocalEvidence
 

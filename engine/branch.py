@@ -9,15 +9,15 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from symboslam.engine.boundaries import settle
+from symboslam.engine.boundaries import Parting, settle
 from symboslam.engine.environment_map import EnvironmentMap
 from symboslam.engine.fragments import FragmentEvidence, Fragments
 from symboslam.engine.growth import crowding, densest, grow
 from symboslam.engine.landmarks import LandmarkMap
+from symboslam.engine.merging import alike, merged, merged_uncrossed, neighbours
 from symboslam.engine.registry import Progress, Segmentation
 from symboslam.engine.settings import Settings
 from symboslam.engine.territories import rest_of, territories
-from symboslam.engine.triangulation import delaunay_edges
 from symboslam.engine.weights import weights_of
 from symboslam.errors import InputError
 from symboslam.reasoning.knowledge import Knowledge
@@ -67,16 +67,31 @@ class BranchSegmentation(Segmentation):
             tell("merging", 0.4)
             places, place = np.unique(xy, axis=0, return_inverse=True)
             fragment = _numbered(_owners(fragment, place)[place])
+            home = _owners(fragment, place)
+            next_to = neighbours(places, reach)
             label = _labels(evidence.probability(Fragments.of(fragment, xy)))
-            home = _merged(places, _owners(fragment, place), label, reach)
+            home = merged(home, alike(next_to, home, label))
             # 3. Where their pair lines cross, landmarks are traded.
-            home = settle(places, home, reach, part_of(tell, "parting", 0.5, 0.8))
-            # 4. The ground near to a fragment's landmarks is its segment.
-            tell("drawing segments", 0.8)
-            fragment = _numbered(home[place])
+            home = settle(places, home, reach, part_of(tell, "parting", 0.5, 0.7))
+            # 4. What has come to be next to its like merges, too, where no lines cross then; each
+            #    time there are fewer fragments.
+            home = _numbered(home)
+            label = _labels(evidence.probability(Fragments.of(home[place], xy)))
+            now = Parting.of(places, home, reach)
+            while len(pairs := alike(next_to, now.fragment, label)):
+                after = merged_uncrossed(places, now, pairs, reach)
+                changed = np.unique(after.fragment[after.fragment != now.fragment])
+                if not len(changed):
+                    break
+                now = after
+                some = Fragments.some(now.fragment[place], xy, changed)
+                label[changed] = _labels(evidence.probability(some))
+            fragment = _numbered(now.fragment[place])
             home[place] = fragment
+            # 5. The ground near to a fragment's landmarks is its segment.
+            tell("drawing segments", 0.8)
             ground = territories(places, home, reach, landmarks.bbox, landmarks.surveyed)
-        # 5. All other ground is one more segment, of which nothing is known.
+        # 6. All other ground is one more segment, of which nothing is known.
         number, ground, regions = _with_the_rest(fragment, ground, landmarks)
         probability = evidence.probability(regions)
         probability[number == 0] = 0
@@ -138,20 +153,6 @@ def _owners(fragment: Ints, place: Ints) -> Ints:
     best = pairs[np.lexsort((pairs[:, 1], -counts, pairs[:, 0]))]
     first = np.flatnonzero(np.diff(best[:, 0], prepend=-1))
     return np.asarray(best[first, 1])
-
-
-def _merged(places: Floats, home: Ints, label: Ints, reach: float) -> Ints:
-    """(p,) fragments of one environment whose landmarks stand next to each other become one."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    one, two = delaunay_edges(places).T
-    near = np.hypot(*(places[one] - places[two]).T) <= reach
-    one, two = home[one[near]], home[two[near]]
-    same = (label[one] == label[two]) & (label[one] >= 0)
-    m = len(label)
-    joined = coo_array((np.ones(int(same.sum())), (one[same], two[same])), shape=(m, m))
-    return np.asarray(connected_components(joined, directed=False)[1][home], np.int64)
 
 
 def _with_the_rest(

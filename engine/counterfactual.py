@@ -11,13 +11,14 @@ The search, for a segment of type A:
   classes of the map that speak most for another type; minimal for their class and place. In a
   segment of so many landmarks that ``WORK`` would be exceeded, fewer classes.
 
-The segment's outline, bandwidth and the evidence of unmarked ground stay what they are.
+The segment's outline, bandwidth and the evidence of unmarked ground stay what they are. What is
+found so for a fragment is then tried on the whole map (``anew.py``).
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import combinations, islice
 from math import comb
 
@@ -26,14 +27,14 @@ import shapely
 from numpy.typing import NDArray
 
 from symboslam.engine._base import normalised
+from symboslam.engine.anew import proved
+from symboslam.engine.changes import MOST, Counterfactual
 from symboslam.engine.environment_map import EnvironmentMap
-from symboslam.engine.landmarks import LandmarkMap
+from symboslam.engine.fragments import Fragments
 from symboslam.engine.local import LocalEvidence, local_evidence
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
-MOST = 30
-"""Landmarks that a counterfactual may take away or add."""
 CANDIDATES = 96
 """Landmarks that the greedy search chooses from: those that speak most for the type."""
 TRIES = 5_000
@@ -46,31 +47,6 @@ CLASSES = 12
 """Feature classes that may be added: those that speak most for another type."""
 CLEAR = 1e-12
 """Leads up to this are a draw."""
-
-
-@dataclass(frozen=True)
-class Counterfactual:
-    """A change of landmarks after which a segment has another type.
-
-    Attributes:
-        environment: the type that it has then; None = unknown, nothing says anything.
-        probability: P of that type then; 0 if unknown.
-        removed: positions of the landmarks that are taken away.
-        added: position in ``knowledge.features`` of the landmarks that are added; None if none.
-        count: how many are added.
-        place: where they all stand, in metres; the middle of the segment.
-        minimal: whether no smaller change of the same kind does it, which was proved by trying.
-        tried: changes that were weighed in the search.
-    """
-
-    environment: str | None
-    probability: float
-    removed: tuple[int, ...] = ()
-    added: int | None = None
-    count: int = 0
-    place: tuple[float, float] = (0.0, 0.0)
-    minimal: bool = False
-    tried: int = 0
 
 
 def without(
@@ -128,28 +104,11 @@ def counterfactuals(
         return ()
     local = local or local_evidence(environment_map, i)
     search = _Search(environment_map, i, local, against)
-    fewer = search.fewer()
-    return ((fewer,) if fewer else ()) + search.more()[:limit]
-
-
-def applied(environment_map: EnvironmentMap, change: Counterfactual) -> LandmarkMap:
-    """The landmarks of a map after a change, to be classified with the map's ``config``."""
-    marks = environment_map.landmarks
-    kept = marks.without(*change.removed) if change.removed else marks
-    if change.added is None:
-        return kept
-    n, feature = change.count, environment_map.knowledge.features[change.added]
-    return replace(
-        kept,
-        feature=np.append(kept.feature, np.full(n, change.added, np.int32)),
-        x=np.append(kept.x, np.full(n, change.place[0])),
-        y=np.append(kept.y, np.full(n, change.place[1])),
-        confidence=np.append(kept.confidence, np.ones(n)),
-        static=np.append(kept.static, np.full(n, feature.static)),
-        id=np.append(kept.id, [f"added-{j + 1}" for j in range(n)]),
-        time=None if kept.time is None else np.append(kept.time, [None] * n),
-        agent=None if kept.agent is None else np.append(kept.agent, [None] * n),
-    )
+    fewer, more = search.fewer(), search.more()
+    if isinstance(environment_map.regions, Fragments):
+        sets = search.larger(fewer) if fewer else ()
+        return proved(environment_map, i, sets, more, against=against, limit=limit)
+    return ((fewer,) if fewer else ()) + more[:limit]
 
 
 class _Search:
@@ -201,14 +160,31 @@ class _Search:
         removed = tuple(sorted(self._local.landmark[chosen].tolist()))
         return self._changed(evidence, removed=removed, minimal=minimal, tried=tried)
 
-    def _greedy(self) -> tuple[list[int], int]:
-        """Rows of a set without which the type is another, empty if not found; sets tried."""
-        each = self._local.own + self._local.pairs
+    def larger(self, change: Counterfactual) -> tuple[Counterfactual, ...]:
+        """A change, and changes of twice as many landmarks each, up to ``MOST`` of them."""
+        order = self._local.landmark[self._order(self._rival())].tolist()
+        chosen, found = list(change.removed), [change]
+        more = [position for position in order if position not in set(chosen)]
+        while more and 2 * len(chosen) <= MOST:
+            chosen, more = chosen + more[: len(chosen)], more[len(chosen) :]
+            found.append(replace(change, removed=tuple(sorted(chosen))))
+        return tuple(found)
+
+    def _rival(self) -> int:
+        """The type that is wanted, or the one that comes second."""
         rivals = self._local.total.copy()
         rivals[self._now] = -1
-        rival = int(rivals.argmax()) if self._wanted is None else self._wanted
-        order = np.argsort(each[:, rival] - each[:, self._now], kind="stable")
-        chosen = order[:CANDIDATES].astype(np.int64)
+        return int(rivals.argmax()) if self._wanted is None else self._wanted
+
+    def _order(self, rival: int) -> Ints:
+        """The landmarks as rows, those first that speak most for the type rather than a rival."""
+        each = self._local.own + self._local.pairs
+        return np.argsort(each[:, rival] - each[:, self._now], kind="stable").astype(np.int64)
+
+    def _greedy(self) -> tuple[list[int], int]:
+        """Rows of a set without which the type is another, empty if not found; sets tried."""
+        order = self._order(self._rival())
+        chosen = order[:CANDIDATES]
         q, tried = len(chosen), 0
         width = max(1, WORK // (MOST * max(len(order), 1)))  # the strongest that are weighed
         gone = np.zeros(q, np.bool_)

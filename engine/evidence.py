@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import AbstractContextManager, nullcontext
+from functools import cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +15,29 @@ from symboslam.engine.grid import Cells, Grid
 from symboslam.engine.landmarks import LandmarkMap
 from symboslam.engine.settings import Settings
 
+if TYPE_CHECKING:
+    from threadpoolctl import ThreadpoolController
+
 Floats = NDArray[np.float64]
 BLOCK = 256
 """Landmarks along each side of a block of distances: 0.5 MB, which stays in a cache."""
+
+
+def one_thread() -> AbstractContextManager[object]:
+    """While it lasts, products of matrices take one thread.
+
+    Those of a segment are small and many: threads would wait for each other, and on a machine with
+    other work several times as long as they compute.
+    """
+    limited: AbstractContextManager[object] = _controller().limit(limits=1, user_api="blas")
+    return limited
+
+
+@cache
+def _controller() -> ThreadpoolController:
+    from threadpoolctl import ThreadpoolController
+
+    return ThreadpoolController()
 
 
 def nearness(xy: Floats, member: Floats, diagonal: float) -> Floats:
@@ -33,12 +56,13 @@ def nearness(xy: Floats, member: Floats, diagonal: float) -> Floats:
     scaled = xy / diagonal
     far = np.zeros(member.shape)
     blocks = [slice(start, start + BLOCK) for start in range(0, len(xy), BLOCK)]
-    for i, rows in enumerate(blocks):
-        for columns in blocks[i:]:  # distances are symmetric: each block serves twice
-            d = cdist(scaled[rows], scaled[columns])
-            far[rows] += d @ member[columns]
-            if columns != rows:
-                far[columns] += d.T @ member[rows]
+    with one_thread() if len(blocks) > 1 else nullcontext():
+        for i, rows in enumerate(blocks):
+            for columns in blocks[i:]:  # distances are symmetric: each block serves twice
+                d = cdist(scaled[rows], scaled[columns])
+                far[rows] += d @ member[columns]
+                if columns != rows:
+                    far[columns] += d.T @ member[rows]
     # The sum of 1 - d is the number of members less the sum of d; none makes a pair with itself.
     return np.asarray(member.sum(0) - far - member)
 

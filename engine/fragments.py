@@ -13,6 +13,10 @@ from symboslam.engine.evidence import pair_parts
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+LARGE = 500
+"""Landmarks from which on what was found of a fragment is remembered."""
+REMEMBERED = 16
+"""Fragments of which it is: the latest."""
 
 
 @dataclass(frozen=True)
@@ -42,6 +46,13 @@ class Fragments:
         low, high = (f.reduceat(xy[order], starts) for f in (np.minimum, np.maximum))
         return cls(tuple(np.split(order, starts[1:])), np.hypot(*(high - low).T))
 
+    @classmethod
+    def some(cls, fragment: Ints, xy: Floats, numbers: Ints) -> Fragments:
+        """The fragments of these numbers, in order; see ``of``."""
+        here = np.flatnonzero(np.isin(fragment, numbers))
+        found = cls.of(np.searchsorted(numbers, fragment[here]), xy[here])
+        return cls(tuple(here[members] for members in found.members), found.diagonal)
+
     def __len__(self) -> int:
         return len(self.members)
 
@@ -70,6 +81,7 @@ class FragmentEvidence(Evidence[Fragments]):
 
     def __init__(self, xy: Floats, weight: Floats, a: float) -> None:
         self._xy, self._weight, self._a = xy, weight, a
+        self._latest: dict[tuple[bytes, float], Contributions] = {}
 
     def of(self, regions: Fragments) -> Floats:
         """(m, K) P~ of each fragment."""
@@ -102,12 +114,21 @@ class FragmentEvidence(Evidence[Fragments]):
 
     def contributions(self, regions: Fragments) -> Iterator[Contributions]:
         """Each landmark's share of the inferences (own) and of C (pairs)."""
-        nothing = np.zeros(self._weight.shape[1])
         for members, diagonal in zip(regions.members, regions.diagonal.tolist(), strict=True):
-            weight = self._weight[members]
-            if len(members) == 1:
-                yield Contributions(members, weight, np.zeros(weight.shape), nothing)
-            else:
-                # All at one place: they are no distance apart, whatever it is divided by.
-                own, shared, _ = pair_parts(self._xy[members], weight, diagonal or 1.0, self._a)
-                yield Contributions(members, own, shared, nothing)
+            if len(members) < LARGE:
+                yield self._of_one(members, diagonal)
+                continue
+            key = members.tobytes(), diagonal
+            if key not in self._latest:
+                self._latest[key] = self._of_one(members, diagonal)
+                if len(self._latest) > REMEMBERED:
+                    del self._latest[next(iter(self._latest))]
+            yield self._latest[key]
+
+    def _of_one(self, members: Ints, diagonal: float) -> Contributions:
+        weight, nothing = self._weight[members], np.zeros(self._weight.shape[1])
+        if len(members) == 1:
+            return Contributions(members, weight, np.zeros(weight.shape), nothing)
+        # All at one place: they are no distance apart, whatever it is divided by.
+        own, shared, _ = pair_parts(self._xy[members], weight, diagonal or 1.0, self._a)
+        return Contributions(members, own, shared, nothing)

@@ -17,8 +17,9 @@ from hypothesis import strategies as st
 from symboslam.engine._base import normalised
 from symboslam.engine.account import Account, account_of, full_account
 from symboslam.engine.account_formats import as_json, as_turtle, record_of, schema
+from symboslam.engine.changes import applied
 from symboslam.engine.classify import classify
-from symboslam.engine.counterfactual import applied, counterfactuals, without
+from symboslam.engine.counterfactual import counterfactuals, without
 from symboslam.engine.environment_map import EnvironmentMap
 from symboslam.engine.local import local_evidence
 from symboslam.engine.readers import read_landmarks

@@ -27,6 +27,8 @@ from symboslam.engine.evidence import pair_evidence
 from symboslam.engine.fragments import FragmentEvidence, Fragments
 from symboslam.engine.growth import TOLERANCE, Fragment, Members, crowding, densest, grow
 from symboslam.engine.nearest import FIRST, Nearest
+from symboslam.engine.readers import read_landmarks
+from symboslam.engine.sample import sample_area
 from symboslam.engine.territories import territories
 from symboslam.engine.triangulation import delaunay_edges, pair_lines
 from symboslam.errors import InputError
@@ -60,6 +62,8 @@ RING = np.array(
      for s in (1, -1)} if x * x + side * side == 1105**2], float
 )  # fmt: skip
 """108 places that are exactly as far from the origin."""
+MICRON = 1e-6
+"""Grid in metres on which polygons are compared: without one, GEOS errs where they touch."""
 HERE = examples(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 
 
@@ -320,7 +324,7 @@ def test_territories_never_overlap_and_hold_their_own(points: Points, reach: flo
     box = (-5.0, -5.0, 245.0, 245.0)
     ground = territories(xy, fragment, reach, box, None)
     assert shapely.is_valid(ground).all()
-    common = shapely.area(shapely.intersection(ground[:, None], ground))
+    common = shapely.area(shapely.intersection(ground[:, None], ground, grid_size=MICRON))
     assert common[~np.eye(len(ground), dtype=bool)].max(initial=0) < 1e-3 * reach
     assert (shapely.distance(ground[fragment], shapely.points(xy)) < 1e-4 * reach).all()
     assert shapely.covers(shapely.box(*box).buffer(1e-6), ground).all()
@@ -356,6 +360,40 @@ def check(found: EnvironmentMap) -> None:
     assert shapely.is_valid(found.geometry).all()
     assert not shapely.is_empty(found.geometry).any()
     assert shapely.area(shapely.union_all(found.geometry)) == pytest.approx(whole, rel=1e-5)
+    one, two = shapely.STRtree(found.geometry).query(found.geometry, predicate="intersects")
+    one, two = found.geometry[one[one < two]], found.geometry[two[one < two]]
+    common = shapely.area(shapely.intersection(one, two, grid_size=MICRON))
+    assert common.max(initial=0) < 1e-3 * found.config["reach"]  # rounding
+
+
+def own_ground(found: EnvironmentMap) -> tuple[Floats, NDArray[np.int64]]:
+    """Distinct positions of the landmarks that are in a fragment, and the segment of each."""
+    segment = np.zeros(len(found.landmarks), np.int64)
+    for i, part in enumerate(found.regions.members):  # type: ignore[attr-defined]
+        segment[part] = i
+    held = found.segment_id[segment] != "b-0"
+    xy, first = np.unique(found.landmarks.xy[held], axis=0, return_index=True)
+    return xy, segment[held][first]
+
+
+def check_neighbours(found: EnvironmentMap, most: int = 1000) -> None:
+    """Each landmark is on its own ground; no lines cross; like neighbours are one, if they can."""
+    xy, segment = own_ground(found)
+    if len(xy) < 2:
+        return
+    reach = found.config["reach"]
+    apart = shapely.distance(found.geometry[segment], shapely.points(xy))
+    assert apart.max() < 1e-4 * reach
+    now = Parting.of(xy, segment, reach)
+    assert not len(now.crossings)
+    edges = delaunay_edges(xy)
+    near = np.hypot(*(xy[edges[:, 0]] - xy[edges[:, 1]]).T) <= reach
+    pairs = np.unique(np.sort(segment[edges[near]], 1), axis=0)
+    alike = (found.label[pairs[:, 0]] == found.label[pairs[:, 1]]) & (pairs[:, 0] != pairs[:, 1])
+    for one, two in pairs[alike][:most].tolist():
+        if found.label[one] >= 0:
+            together = np.where(segment == two, one, segment)
+            assert len(Parting.of(xy, together, reach, now).crossings)
 
 
 @HERE
@@ -366,6 +404,7 @@ def test_branch_maps(
     marks = made(landmarks_at, points)
     found = classify(marks, knowledge, segmentation="branch")
     check(found)
+    check_neighbours(found)
     again = classify(marks, knowledge, segmentation="branch")
     assert (again.label == found.label).all()
     assert (shapely.to_wkb(again.geometry) == shapely.to_wkb(found.geometry)).all()
@@ -373,6 +412,28 @@ def test_branch_maps(
         if found.label[i] >= 0:
             p = parts.total / parts.total.sum()
             assert p == pytest.approx(found.probability[i], abs=1e-12)
+
+
+def test_like_neighbours_that_come_about_by_trades_merge(bundled: Knowledge) -> None:
+    """In a town trades and merges make neighbours of one type that were none before."""
+    found = classify(
+        read_landmarks(sample_area(seed=7), bundled), bundled, segmentation="branch", relevance=0.2
+    )
+    check(found)
+    check_neighbours(found)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kinds", [1, 200])
+def test_a_map_of_a_hundred_thousand(bundled: Knowledge, area: Any, kinds: int) -> None:
+    rng = np.random.default_rng(kinds)
+    xy = np.round(rng.uniform(0, 25_000, (100_000, 2)), 1)
+    xy[:500] = xy[0]
+    some = [f.name for f in bundled.features if f.static][:kinds]
+    rows = [(some[k % len(some)], x, y, 1.0) for k, (x, y) in enumerate(xy.tolist())]
+    found = classify(area(rows, (0, 0, 25_000, 25_000)), bundled, segmentation="branch")
+    check(found)
+    check_neighbours(found, 40)
 
 
 def test_no_landmarks_is_a_map_that_is_all_unknown(
