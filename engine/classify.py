@@ -8,6 +8,7 @@ from symboslam.engine.environment_map import EnvironmentMap
 from symboslam.engine.landmarks import LandmarkMap
 from symboslam.engine.registry import Progress, segmentation_of
 from symboslam.engine.settings import settings_of
+from symboslam.errors import InputError
 from symboslam.reasoning.knowledge import Knowledge
 
 
@@ -35,9 +36,15 @@ def classify(
 
     Raises:
         UnknownNameError: no such profile, scheme, segmentation or setting.
-        InputError: a setting out of its range.
+        InputError: a setting out of its range, or one that the segmentation does not use.
     """
     chosen = segmentation_of(segmentation)
+    idle = [name for name in sorted(chosen.unused) if changes.get(name) is not None]
+    if idle:
+        raise InputError(
+            f"{', '.join(idle)} would change nothing: the segmentation {segmentation} does not "
+            "use it; leave it out or choose another segmentation"
+        )
     settings = settings_of(profile, **changes)
     tell = progress or (lambda stage, share: None)
     return chosen.cut(landmarks, knowledge, scheme, settings, tell)
