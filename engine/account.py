@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -114,7 +114,7 @@ class Account:
     asked: bool = False
     differences: tuple[Difference, ...] = ()
     indications: tuple[Indication, ...] = ()
-    parts: LandmarkParts = LandmarkParts()
+    parts: LandmarkParts = field(default_factory=LandmarkParts)
     counterfactuals: tuple[Change, ...] | None = None
 
 

@@ -146,8 +146,10 @@ def _parts(account: Account) -> Iterator[str]:
                 f"  {mark.contribution:+.4f}  {mark.label} {mark.id} "
                 f"({own} {mark.own:+.4f}, through others {mark.pairs:+.4f}{without})"
             )
-        if parts.other_landmarks and parts.other_landmarks.count:
-            yield f"  {parts.other_landmarks.contribution:+.4f}  {parts.other_landmarks.count} other landmarks"
+        others = parts.other_landmarks
+        if others and others.count:
+            many = f"{others.count} other landmark{'s' if others.count > 1 else ''}"
+            yield f"  {others.contribution:+.4f}  {many}"
         if parts.ground:
             yield f"  {parts.ground:+.4f}  ground without landmarks"
     if parts.pairs:
