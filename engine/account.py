@@ -4,29 +4,24 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symboslam.engine._base import normalised
 from symboslam.engine.explanation import Explanation, Reason
+from symboslam.engine.landmark_parts import LANDMARKS, LandmarkParts, parts_of
 from symboslam.errors import InputError
 from symboslam.reasoning.knowledge import Indication
 
 if TYPE_CHECKING:
     from symboslam.engine.changes import Counterfactual
     from symboslam.engine.environment_map import EnvironmentMap
-    from symboslam.engine.local import LocalEvidence
 
 Why = Callable[[str, str], Indication | None]
 """(feature name, environment name) -> the indication behind it, if there is one."""
 LEAST = 0.005
 """Parts of P below this are summed up instead of named."""
-LANDMARKS = 20
-"""Landmarks, and pairs of them, that a full account lists."""
-AMONG = 400
-"""Landmarks among which the strongest pairs are looked for: those that add most."""
 
 
 @dataclass(frozen=True)
@@ -74,41 +69,6 @@ class Difference:
 
 
 @dataclass(frozen=True)
-class LandmarkPart:
-    """What one landmark adds to the winner's P.
-
-    Attributes:
-        id: the landmark.
-        feature: its class.
-        label: the same for people.
-        position: in the input's coordinates.
-        contribution: what it adds in all.
-        own: what it adds by itself.
-        pairs: what it adds, or loses, through others.
-        without: P(winner) if it were not there, worked out anew; None where that is not known.
-    """
-
-    id: str
-    feature: str
-    label: str
-    position: tuple[float, float]
-    contribution: float
-    own: float
-    pairs: float
-    without: float | None = None
-
-
-@dataclass(frozen=True)
-class PairPart:
-    """What two landmarks add to the winner's P, or take from it, by being together."""
-
-    first: str
-    second: str
-    features: tuple[str, str]
-    contribution: float
-
-
-@dataclass(frozen=True)
 class Taken:
     """Landmarks of one class that a counterfactual takes away or adds."""
 
@@ -140,10 +100,10 @@ class Account:
         runner_up: the environment that comes second, or None.
         why: what speaks for the segment's environment; None if it is unknown.
         against: what speaks for the environment that it is compared with; None without one.
+        asked: whether the comparison was asked for, and not only made with the runner-up.
         differences: why the one rather than the other, the largest first.
         indications: the axioms behind the reasons: module, line, strength, sentence, source.
-        landmarks: the strongest landmarks; none where the landmarks are not at hand.
-        pairs: the strongest pairs among them.
+        parts: what landmarks and pairs add; empty where the landmarks are not at hand.
         counterfactuals: changes after which it would be something else; None if not looked for.
     """
 
@@ -151,10 +111,10 @@ class Account:
     runner_up: str | None = None
     why: Side | None = None
     against: Side | None = None
+    asked: bool = False
     differences: tuple[Difference, ...] = ()
     indications: tuple[Indication, ...] = ()
-    landmarks: tuple[LandmarkPart, ...] = ()
-    pairs: tuple[PairPart, ...] = ()
+    parts: LandmarkParts = field(default_factory=LandmarkParts)
     counterfactuals: tuple[Change, ...] | None = None
 
 
@@ -168,10 +128,17 @@ def account_of(
         why: finds the sentence behind a feature and an environment.
         against: the environment to compare with; None takes the runner-up.
         limit: how many classes to name for the winner; half as many for the other.
+
+    Raises:
+        InputError: it is to be compared with what it is.
     """
     name, p = explanation.environment, explanation.probabilities
     if name is None:
         return Account(explanation)
+    if against == name:
+        raise InputError(
+            f"segment {explanation.segment_id} is {name} itself: compare it with another type"
+        )
     other = against or explanation.runner_up
     found = [
         indication
@@ -180,13 +147,13 @@ def account_of(
         if reason.contribution.get(environment)
         and (indication := why(reason.feature, environment)) is not None
     ]
-    compared = other if other and other != name else None
     return Account(
         explanation,
         explanation.runner_up,
         _side(explanation, name, why, limit),
-        _side(explanation, compared, why, (limit + 1) // 2) if compared else None,
-        _differences(explanation.reasons, name, compared) if compared else (),
+        _side(explanation, other, why, (limit + 1) // 2) if other else None,
+        against is not None,
+        _differences(explanation.reasons, name, other) if other else (),
         tuple(found),
     )
 
@@ -197,6 +164,7 @@ def full_account(
     *,
     against: str | None = None,
     limit: int = 6,
+    listed: int = LANDMARKS,
     counterfactual: bool = False,
 ) -> Account:
     """All that a map with its landmarks tells of a segment; nothing but the segment is touched.
@@ -207,11 +175,13 @@ def full_account(
         against: the environment to compare with, and that counterfactuals shall lead to; None
             takes the runner-up, and any other.
         limit: how many classes to name for the winner; half as many for the other.
+        listed: how many landmarks, and how many pairs, to list; the rest is summed up.
         counterfactual: whether to look for changes that make it something else.
 
     Raises:
         UnknownNameError: no such segment or environment.
-        InputError: counterfactuals of evidence that cannot be weighed anew.
+        InputError: it is to be compared with what it is; counterfactuals of evidence that cannot
+            be weighed anew.
     """
     from symboslam.engine.counterfactual import counterfactuals
     from symboslam.engine.local import local_evidence
@@ -232,12 +202,12 @@ def full_account(
         if counterfactual:
             raise
         return told
-    landmarks, pairs = _strongest(m, local, int(m.label[i]))
+    parts = parts_of(m, local, int(m.label[i]), listed)
     changes = None
     if counterfactual:
         found = counterfactuals(m, segment_id, against=against, local=local)
         changes = tuple(_change(m, each) for each in found)
-    return replace(told, landmarks=landmarks, pairs=pairs, counterfactuals=changes)
+    return replace(told, parts=parts, counterfactuals=changes)
 
 
 def _of_zones(m: EnvironmentMap, explanation: Explanation) -> tuple[Indication, ...]:
@@ -279,52 +249,6 @@ def _differences(reasons: tuple[Reason, ...], name: str, other: str) -> tuple[Di
                 Difference(reason.feature, reason.label, reason.count, one, two, one - two)
             )
     return tuple(sorted(found, key=lambda d: -abs(d.difference)))
-
-
-def _strongest(
-    m: EnvironmentMap, local: LocalEvidence, label: int
-) -> tuple[tuple[LandmarkPart, ...], tuple[PairPart, ...]]:
-    """The landmarks that add most to the winner's P, and the pairs that do most to it."""
-    total, marks, known = local.total.sum(), m.landmarks, m.knowledge.features
-    own, pairs = local.own[:, label] / total, local.pairs[:, label] / total
-    order = np.argsort(-np.abs(own + pairs), kind="stable")
-    order = order[np.abs(own + pairs)[order] > 0]
-    shown = order[:LANDMARKS]
-    alone = normalised(local.without(shown, np.eye(len(shown), dtype=np.bool_)))[:, label]
-    first, second = marks.frame.from_metres(
-        marks.x[local.landmark[shown]], marks.y[local.landmark[shown]]
-    )
-    landmarks = []
-    for at, row in enumerate(shown.tolist()):
-        position = int(local.landmark[row])
-        feature = known[int(marks.feature[position])]
-        landmarks.append(
-            LandmarkPart(
-                str(marks.id[position]),
-                feature.name,
-                feature.label,
-                (float(first[at]), float(second[at])),
-                float(own[row] + pairs[row]),
-                float(own[row]),
-                float(pairs[row]),
-                float(alone[at]),
-            )
-        )
-    loudest = np.abs(local.own + local.pairs).max(1, initial=0)
-    among = np.argsort(-loudest, kind="stable")[:AMONG]
-    through = local.between(among, label)[among] / total
-    together = np.triu(through + through.T, 1)
-    rows, columns = np.nonzero(together)
-    parts = together[rows, columns]
-    best = np.argsort(-np.abs(parts), kind="stable")[:LANDMARKS]
-    found = []
-    for j in best.tolist():
-        ends = [int(local.landmark[among[k]]) for k in (rows[j], columns[j])]
-        one, two = (known[int(marks.feature[e])].name for e in ends)
-        found.append(
-            PairPart(str(marks.id[ends[0]]), str(marks.id[ends[1]]), (one, two), float(parts[j]))
-        )
-    return tuple(landmarks), tuple(found)
 
 
 def _change(m: EnvironmentMap, found: Counterfactual) -> Change:

@@ -149,6 +149,7 @@ class EnvironmentMap:
 
         Raises:
             UnknownNameError: no such segment.
+            InputError: it is to be compared with what it is.
         """
         from symboslam.engine.account import account_of
         from symboslam.engine.wording import text_of

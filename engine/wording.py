@@ -11,6 +11,7 @@ from symboslam.engine.account import LEAST, Account, Change, Named, Side, Taken
 
 LENGTHS = ("line", "paragraph", "full")
 _IN_A_LINE = 3
+"""Classes in a line, and landmarks of each class that a counterfactual names."""
 SMALLEST = 0.00005
 """Differences below this are zeros in four digits."""
 
@@ -37,7 +38,10 @@ def _line(account: Account) -> str:
         return f"Segment {found.segment_id} is unknown."
     parts = [_subject(n) for n in why.named[:_IN_A_LINE]]
     because = f": {', '.join(parts)}" if parts else ""
-    return f"Segment {found.segment_id} is {why.environment} (P = {why.probability:.2f}){because}."
+    other = account.against if account.asked else None
+    rather = f", rather than {other.environment} (P = {other.probability:.2f})" if other else ""
+    first = f"Segment {found.segment_id} is {why.environment} (P = {why.probability:.2f})"
+    return f"{first}{rather}{because}."
 
 
 def _paragraph(account: Account) -> Iterator[str]:
@@ -117,19 +121,7 @@ def _more(account: Account) -> Iterator[str]:
                 break  # the largest come first
             subject = f"{d.count} x {d.label}" if d.count else d.label
             yield f"  {d.difference:+.4f}  {subject} ({d.winner:+.4f} less {d.other:+.4f})"
-    if account.landmarks:
-        yield f"The strongest landmarks for {found.environment}:"
-        for mark in account.landmarks:
-            without = "" if mark.without is None else f"; without it P = {mark.without:.4f}"
-            yield (
-                f"  {mark.contribution:+.4f}  {mark.label} {mark.id} "
-                f"(by itself {mark.own:+.4f}, through others {mark.pairs:+.4f}{without})"
-            )
-    if account.pairs:
-        yield "The strongest pairs:"
-        for pair in account.pairs:
-            one, two = pair.features
-            yield f"  {pair.contribution:+.4f}  {one} {pair.first} and {two} {pair.second}"
+    yield from _parts(account)
     if account.indications:
         yield "What the ontology states:"
         for i in account.indications:
@@ -140,6 +132,33 @@ def _more(account: Account) -> Iterator[str]:
                 + (f": {i.reason}" if i.reason else "")
                 + (f" [{where}]" if where else "")
             )
+
+
+def _parts(account: Account) -> Iterator[str]:
+    """What landmarks and pairs add, with what is not listed."""
+    parts, name = account.parts, account.explanation.environment
+    own = "by being counted" if parts.counted else "by itself"
+    if parts.landmarks:
+        yield f"The strongest landmarks for {name}:"
+        for mark in parts.landmarks:
+            without = "" if mark.without is None else f"; without it P = {mark.without:.4f}"
+            yield (
+                f"  {mark.contribution:+.4f}  {mark.label} {mark.id} "
+                f"({own} {mark.own:+.4f}, through others {mark.pairs:+.4f}{without})"
+            )
+        others = parts.other_landmarks
+        if others and others.count:
+            many = f"{others.count} other landmark{'s' if others.count > 1 else ''}"
+            yield f"  {others.contribution:+.4f}  {many}"
+        if parts.ground:
+            yield f"  {parts.ground:+.4f}  ground without landmarks"
+    if parts.pairs:
+        yield "The strongest pairs:"
+        for pair in parts.pairs:
+            one, two = pair.features
+            yield f"  {pair.contribution:+.4f}  {one} {pair.first} and {two} {pair.second}"
+        if parts.other_pairs and abs(parts.other_pairs) >= SMALLEST:
+            yield f"  {parts.other_pairs:+.4f}  all other pairs"
 
 
 def _changes(account: Account) -> Iterator[str]:
@@ -162,11 +181,17 @@ def _change(change: Change) -> str:
     to = "unknown" if change.environment is None else change.environment
     then = f"{to} (P = {change.probability:.2f})" if change.environment else to
     if change.plus is not None:
-        return f"with {change.plus.count} more x {change.plus.label} in its middle: {then}."
-    taken = ", ".join(_subject(each) for each in change.without)
+        more = f"{change.plus.count} more landmark{'s' if change.plus.count > 1 else ''}"
+        return f"with {more} in its middle ({change.plus.label}): {then}."
+    taken = ", ".join(f"{_subject(each)} ({_ids(each)})" for each in change.without)
     proof = (
         "no smaller set does it"
         if change.minimal
         else f"the search ended at its bound after {change.tried} sets: a smaller one may do it too"
     )
     return f"without {taken}: {then}; {proof}."
+
+
+def _ids(taken: Taken) -> str:
+    """The first few of the landmarks."""
+    return ", ".join([*taken.ids[:_IN_A_LINE], *(["..."] if taken.count > _IN_A_LINE else [])])

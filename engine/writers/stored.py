@@ -28,6 +28,7 @@ class StoredMap:
         config: the settings that it was made with, as keywords of ``classify``.
         knowledge_hash: of the ontology that it was made with.
         iris: IRIs of environments, features, groups and zones by name.
+        segment_iris: IRIs of segments by segment id; none in formats without IRIs.
     """
 
     source: str
@@ -38,6 +39,7 @@ class StoredMap:
     config: Mapping[str, Any] = field(default_factory=dict)
     knowledge_hash: str = ""
     iris: Mapping[str, str] = field(default_factory=dict)
+    segment_iris: Mapping[str, str] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.segments)

@@ -47,7 +47,8 @@ def _stored(index: Index, source: str) -> StoredMap:
     mentioned = {index.one(c, SL + "featureClass") for c in index.of_type(SL + "Contribution")}
     features = [feature for feature in mentioned if feature is not None]
     environments = index.subjects(RDFS + "subClassOf", SL + "Environment")
-    segments = [_segment(index, segment) for segment in index.of_type(SL + "Segment")]
+    nodes = index.of_type(SL + "Segment")
+    segments = [_segment(index, node) for node in nodes]
     return StoredMap(
         source=source,
         environments={_name(index, e): _environment(index, e) for e in environments},
@@ -64,6 +65,11 @@ def _stored(index: Index, source: str) -> StoredMap:
             (index.text(node, SL + "sha256") for node in index.of_type(SL + "OntologySource")), ""
         ),
         iris={_name(index, term): term for term in [*features, *environments, *_levels(index)]},
+        segment_iris={
+            segment.segment_id: node
+            for segment, node in zip(segments, nodes, strict=True)
+            if not node.startswith("_:")
+        },
     )
 
 

@@ -7,7 +7,8 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator
 
-from symboslam.engine.account import Change, Difference, LandmarkPart, PairPart, Side
+from symboslam.engine.account import Change, Difference, Side
+from symboslam.engine.landmark_parts import LandmarkPart, Others, PairPart
 from symboslam.reasoning.knowledge import Indication
 from symboslam.service.maps.openapi import TEXT
 
@@ -204,7 +205,16 @@ class ExplanationInfo(BaseModel):
     difference: float | None = Field(description="P(environment) - P(against).")
     differences: list[Difference] = Field(description="They sum to `difference`.")
     landmarks: list[LandmarkPart] = Field(description="The strongest ones.")
+    other_landmarks: Others | None = Field(description="Those that are not listed.")
+    ground: float | None = Field(
+        description="What ground without landmarks adds; with all landmarks it sums to P."
+    )
     pairs: list[PairPart] = Field(description="The strongest ones.")
+    other_pairs: float | None = Field(description="What all other pairs add.")
+    counted: bool = Field(
+        description="Whether `own` is what a landmark adds by being counted, and not by itself."
+    )
+    crs: str = Field(description="IRI of the coordinate system of positions.")
     counterfactuals: list[Change] | None = Field(description="Null unless asked for.")
     indications: list[Indication] = Field(description="The axioms behind the reasons.")
 

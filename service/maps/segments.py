@@ -15,7 +15,7 @@ from symboslam.engine.live import LiveMap
 from symboslam.engine.writers import FORMATS, WriteOptions
 from symboslam.engine.writers.geojson import to_geojson
 from symboslam.engine.writers.options import reasons_wanted
-from symboslam.errors import UnknownNameError
+from symboslam.errors import InputError, UnknownNameError
 from symboslam.service.auth import CanQuery, CanUpdate
 from symboslam.service.json_body import JSONRoute
 from symboslam.service.maps import openapi
@@ -146,7 +146,10 @@ async def explain(
         detail = f"against: no environment {against!r}; there are {', '.join(names)}"
         raise Problem(422, "invalid-parameter", detail)
     override = override_of(segment, await _overrides(running, maps))
-    record = await asyncio.to_thread(explained, found, segment, length, against, counterfactual)
+    try:
+        record = await asyncio.to_thread(explained, found, segment, length, against, counterfactual)
+    except InputError as error:
+        raise Problem(422, "invalid-parameter", f"against: {error}") from error
     shown = None if override is None else _info(override, running)
     text = record["text"]
     if shown is not None:

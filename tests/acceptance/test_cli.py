@@ -159,6 +159,53 @@ def test_explain_in_three_formats(run: Any, explained: tuple[Path, str]) -> None
     assert run("explain", out, name, "--format", "xml").code == 2
 
 
+def test_explain_compares_with_what_is_asked_for(run: Any, explained: tuple[Path, str]) -> None:
+    out, name = explained
+    sl = Namespace("https://w3id.org/symboslam#")
+    others, nodes = set(), set()
+    for more in ((), ("--against", "Military"), ("--against", "Industrial")):
+        turtle = run("explain", out, name, "--format", "ttl", *more).out
+        graph = Graph().parse(data=turtle, format="turtle")
+        (comparison,) = graph.objects(None, sl.hasComparison)
+        others.add(graph.value(comparison, sl.environment))
+        nodes |= set(graph.subjects(RDF.type, sl.SegmentExplanation))
+    assert len(others) == len(nodes) == 3
+    line = run("explain", out, name, "--length", "line", "--against", "military").out
+    assert ", rather than Military (P = 0." in line
+    itself = run("explain", out, name, "--against", "residential")
+    assert itself.code == 2
+    assert f"segment {name} is Residential itself" in itself.err
+
+
+def test_explain_points_to_the_segment_of_the_map(run: Any, town: Path, tmp_path: Path) -> None:
+    outs = [tmp_path / f"map.{suffix}" for suffix in ("ttl", "nq", "geojson")]
+    assert run("classify", town, *(p for o in outs for p in ("--out", o)), "--cells", 3).code == 0
+    sl, dcterms = Namespace("https://w3id.org/symboslam#"), Namespace("http://purl.org/dc/terms/")
+    segments = Graph().parse(outs[0])
+    for out in outs[:2]:
+        graph = Graph().parse(data=run("explain", out, "0-0-0", "--format", "ttl").out)
+        (segment,) = graph.objects(None, sl.explains)
+        assert (segment, RDF.type, sl.Segment) in segments
+        assert str(segments.value(segment, dcterms.identifier)) == "0-0-0"
+    graph = Graph().parse(data=run("explain", outs[2], "0-0-0", "--format", "ttl").out)
+    assert not list(graph.objects(None, sl.explains))  # GeoJSON names no IRI of it
+
+
+def test_explain_lists_as_many_landmarks_as_asked_for(
+    run: Any, town: Path, explained: tuple[Path, str]
+) -> None:
+    out, name = explained
+    asked = ("explain", out, name, "--landmarks", town, "--json")
+    for more, n in (((), 20), (("--limit", 3), 3), (("--limit", 100_000), 100_000)):
+        told = json.loads(run(*asked, *more).out)
+        count = len(told["landmarks"])
+        assert count == min(n, count + told["other_landmarks"]["count"])
+        assert len(told["pairs"]) <= n
+        parts = [mark["contribution"] for mark in told["landmarks"]]
+        whole = sum(parts) + told["other_landmarks"]["contribution"] + told["ground"]
+        assert whole == pytest.approx(told["probabilities"]["Residential"], abs=1e-9)
+
+
 def test_explain_tells_what_would_change_it(
     run: Any, town: Path, explained: tuple[Path, str], tmp_path: Path
 ) -> None:

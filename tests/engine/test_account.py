@@ -16,7 +16,8 @@ from hypothesis import strategies as st
 
 from symboslam.engine._base import normalised
 from symboslam.engine.account import Account, account_of, full_account
-from symboslam.engine.account_formats import as_json, as_turtle, record_of, schema
+from symboslam.engine.account_formats import as_json, record_of, schema
+from symboslam.engine.account_rdf import as_turtle
 from symboslam.engine.changes import applied
 from symboslam.engine.classify import classify
 from symboslam.engine.counterfactual import counterfactuals, without
@@ -25,6 +26,7 @@ from symboslam.engine.local import local_evidence
 from symboslam.engine.readers import read_landmarks
 from symboslam.engine.sample import sample_area
 from symboslam.engine.wording import text_of
+from symboslam.errors import InputError
 from symboslam.reasoning.knowledge import Knowledge
 
 PROFILES = ("default", "paper")
@@ -41,6 +43,14 @@ def town(profile: str) -> EnvironmentMap:
     """The sample town, classified."""
     knowledge = Knowledge.load()
     return classify(read_landmarks(sample_area(seed=7), knowledge), knowledge, profile=profile)
+
+
+@cache
+def small_town(segmentation: str, profile: str) -> EnvironmentMap:
+    """A town of one square kilometre."""
+    knowledge = Knowledge.load()
+    marks = read_landmarks(sample_area(7, 1000.0), knowledge)
+    return classify(marks, knowledge, profile=profile, segmentation=segmentation)
 
 
 def some(found: EnvironmentMap, step: int = 80) -> list[int]:
@@ -73,7 +83,7 @@ def test_removals_in_a_town(profile: str) -> None:
     found = town(profile)
     for i in some(found, 150):
         name, label = str(found.segment_id[i]), int(found.label[i])
-        for mark in full_account(found, name).landmarks[:2]:
+        for mark in full_account(found, name).parts.landmarks[:2]:
             position = int(np.flatnonzero(found.landmarks.id == mark.id)[0])
             again = classify(
                 found.landmarks.without(position), found.knowledge, **dict(found.config)
@@ -141,7 +151,7 @@ def test_pairs_by_hand(knowledge: Knowledge, landmarks_at: Any) -> None:
     found = classify(landmarks_at(rows), knowledge, profile="paper", cells=1)
     account = full_account(found, "0-0-0")
     c = 0.5 * (1 - 60 / (240 * np.sqrt(2)))  # a * 1/2 * 1/2 (1 + 1) (1 - d) * 2
-    (pair,) = account.pairs
+    (pair,) = account.parts.pairs
     assert pair.contribution == pytest.approx(c / (c + 0.5))
     assert (pair.first, pair.second) == ("0", "1") or (pair.first, pair.second) == ("1", "0")
 
@@ -151,9 +161,41 @@ def test_denial_by_hand(knowledge: Knowledge, landmarks_at: Any) -> None:
     rows = [("House", 110, 120), ("Shop", 130, 120)]
     found = classify(landmarks_at(rows), knowledge, bandwidth=40, cells=1, absence=0.0)
     account = full_account(found, "0-0-0", against="Work")
-    house = next(mark for mark in account.landmarks if mark.feature == "House")
+    house = next(mark for mark in account.parts.landmarks if mark.feature == "House")
     assert house.pairs == pytest.approx(-0.3 * house.own)
-    assert account.pairs[0].contribution == pytest.approx(house.pairs)
+    assert account.parts.pairs[0].contribution == pytest.approx(house.pairs)
+
+
+@pytest.mark.parametrize("listed", [1, 20, 100_000])
+@pytest.mark.parametrize("profile", PROFILES)
+@pytest.mark.parametrize("segmentation", ["grid", "branch"])
+def test_lists_of_landmarks_and_pairs_are_closed(
+    segmentation: str, profile: str, listed: int, bundled: Knowledge
+) -> None:
+    found = small_town(segmentation, profile)
+    counted = 0
+    for i in some(found, 1 if segmentation == "branch" else 13):
+        name, label = str(found.segment_id[i]), int(found.label[i])
+        parts, local = full_account(found, name, listed=listed).parts, local_evidence(found, i)
+        assert parts.other_landmarks is not None
+        assert parts.other_pairs is not None
+        assert parts.ground is not None
+        said = sum(mark.contribution for mark in parts.landmarks) + parts.ground
+        said += parts.other_landmarks.contribution
+        assert said == pytest.approx(float(found.probability[i, label]), abs=1e-9)
+        through = sum(pair.contribution for pair in parts.pairs) + parts.other_pairs
+        all_pairs = local.pairs[:, label].sum() / local.total.sum()
+        assert through == pytest.approx(all_pairs, abs=1e-9)
+        adding = np.count_nonzero(local.own[:, label] + local.pairs[:, label])
+        assert len(parts.landmarks) == min(listed, adding)
+        assert len(parts.landmarks) + parts.other_landmarks.count == adding
+        assert len(parts.pairs) <= listed
+        if listed > adding**2:
+            assert parts.other_landmarks.contribution == 0
+            if parts.counted:  # all of the pairs are among the landmarks inside
+                assert parts.other_pairs == pytest.approx(0, abs=1e-9)
+        counted += parts.counted
+    assert counted if "paper" == profile or segmentation == "branch" else not counted
 
 
 @pytest.mark.parametrize("profile", PROFILES)
@@ -161,11 +203,8 @@ def test_differences_sum_to_the_lead(profile: str) -> None:
     found = town(profile)
     for i in some(found):
         told = found.explain(str(found.segment_id[i]))
-        for against in told.probabilities:
+        for against in told.probabilities.keys() - {told.environment}:
             account = account_of(told, found.knowledge.find_indication, against=against)
-            if account.against is None:
-                assert against == told.environment
-                continue
             lead = told.probabilities[str(told.environment)] - told.probabilities[against]
             total = sum(d.difference for d in account.differences)
             assert total == pytest.approx(lead, abs=1e-12)
@@ -237,12 +276,53 @@ def test_a_counterfactual_by_hand(knowledge: Knowledge, landmarks_at: Any) -> No
     assert told == (
         "Segment 0-0-0 is Home (P = 0.63): 3 x house.\n"
         "It would be something else\n"
-        "  without 2 x house: Work (P = 0.64); no smaller set does it.\n"
-        "  with 2 more x shop in its middle: Work (P = 0.54)."
+        "  without 2 x house (0, 1): Work (P = 0.64); no smaller set does it.\n"
+        "  with 2 more landmarks in its middle (shop): Work (P = 0.54)."
     )
     words = text_of(full_account(found, "0-0-0", counterfactual=True))
-    assert "without 2 x house: Work (P = 0.64); no smaller set does it." in words
-    assert "with 2 more x shop in its middle: Work (P = 0.54)." in words
+    assert "without 2 x house (0, 1): Work (P = 0.64); no smaller set does it." in words
+    assert "with 2 more landmarks in its middle (shop): Work (P = 0.54)." in words
+
+
+def test_a_counterfactual_names_its_landmarks(knowledge: Knowledge, landmarks_at: Any) -> None:
+    rows = [("House", 120, 120)] * 9 + [("Shop", 120, 120)] * 4
+    found = classify(
+        landmarks_at(rows), knowledge, bandwidth=40, cells=1, absence=0.0, dissimilarity=0.0
+    )
+    told = full_account(found, "0-0-0", counterfactual=True)
+    assert told.counterfactuals is not None
+    (taken,) = told.counterfactuals[0].without
+    assert len(taken.ids) == taken.count == 6  # 0.9 * 3 < 0.8 * 4
+    assert f"without 6 x house ({', '.join(taken.ids[:3])}, ...): Work" in text_of(told)
+
+
+def test_a_part_by_being_counted_is_called_so(knowledge: Knowledge, landmarks_at: Any) -> None:
+    rows = [("House", 60, 60), ("House", 120, 60)]
+    for profile, words in (("paper", "by being counted"), ("default", "by itself")):
+        found = classify(landmarks_at(rows), knowledge, profile=profile, cells=1)
+        told = full_account(found, "0-0-0")
+        assert told.parts.counted == (profile == "paper")
+        assert f"({words} +0." in text_of(told, "full")
+    alone = classify(landmarks_at(rows[:1]), knowledge, segmentation="branch")
+    told = full_account(alone, "b-1")  # one landmark makes no pair
+    assert "(by itself +1.0000, through others +0.0000" in text_of(told, "full")
+
+
+def test_a_line_tells_the_comparison_that_was_asked_for(
+    knowledge: Knowledge, landmarks_at: Any
+) -> None:
+    rows = [("House", 120, 120)] * 3 + [("Shop", 120, 120)] * 2
+    found = classify(
+        landmarks_at(rows), knowledge, bandwidth=40, cells=1, absence=0.0, dissimilarity=0.0
+    )
+    assert text_of(full_account(found, "0-0-0"), "line") == (
+        "Segment 0-0-0 is Home (P = 0.63): 3 x house."
+    )
+    assert text_of(full_account(found, "0-0-0", against="Work"), "line") == (
+        "Segment 0-0-0 is Home (P = 0.63), rather than Work (P = 0.37): 3 x house."
+    )
+    with pytest.raises(InputError, match="segment 0-0-0 is Home itself"):
+        full_account(found, "0-0-0", against="Home")
 
 
 def test_an_unknown_segment_has_no_counterfactual(knowledge: Knowledge, landmarks_at: Any) -> None:

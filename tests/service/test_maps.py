@@ -309,6 +309,13 @@ def test_explanations(shared: Service) -> None:
     plain = shared.client.get(f"/v1/maps/{path}", headers={"Accept": "text/plain"})
     assert plain.text.strip() == found["text"]
     assert "Why not Military?" in get(shared, path, against="Military")["text"]
+    marks = sum(mark["contribution"] for mark in found["landmarks"]) + found["ground"]
+    assert marks + found["other_landmarks"]["contribution"] == pytest.approx(
+        found["probabilities"]["Residential"], abs=1e-9
+    )
+    itself = shared.client.get(f"/v1/maps/{path}?against=Residential")
+    assert itself.status_code == 422
+    assert "is Residential itself" in itself.json()["detail"]
     assert shared.client.get(f"/v1/maps/{identifier}/segments/9-9-9/explanation").status_code == 404
 
 

@@ -76,7 +76,9 @@ def classify(
         str | None,
         typer.Option(metavar="W,S,E,N", help="Area to classify, in the input's coordinates."),
     ] = None,
-    cells: Annotated[int, typer.Option(help="Finest cells along each side.")] = 24,
+    cells: Annotated[
+        int | None, typer.Option(help="Finest cells along each side.", show_default="24")
+    ] = None,
     input_format: Annotated[
         str | None,
         typer.Option("--format", help="Format of the input, where its name does not tell."),

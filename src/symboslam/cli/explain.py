@@ -11,7 +11,7 @@ from symboslam.cli.common import OntologyOption, bbox_of, load_knowledge, progre
 from symboslam.errors import InputError
 
 if TYPE_CHECKING:
-    from symboslam.engine.account import Account
+    from symboslam.engine.environment_map import EnvironmentMap
     from symboslam.engine.writers.stored import StoredMap
 
 EXAMPLES = """
@@ -43,7 +43,12 @@ def explain(
     ] = None,
     limit: Annotated[
         int | None,
-        typer.Option(min=1, help="Kinds of landmarks to name.", show_default="6; all if full"),
+        typer.Option(
+            min=1,
+            help="Kinds of landmarks to name; with [bold]--landmarks[/] also single landmarks, and "
+            "pairs of them, to list in full and in JSON and RDF. The rest is summed up.",
+            show_default="6 kinds, all if full; 20 landmarks and pairs",
+        ),
     ] = None,
     length: Annotated[
         Literal["line", "paragraph", "full"], typer.Option(help="How much to tell.")
@@ -79,7 +84,8 @@ def explain(
 ) -> None:
     """Tell why a segment is what it is, and why it is not something else."""
     from symboslam.engine.account_formats import as_json as json_of
-    from symboslam.engine.account_formats import as_turtle
+    from symboslam.engine.account_rdf import as_turtle
+    from symboslam.engine.landmark_parts import LANDMARKS
     from symboslam.engine.wording import text_of
     from symboslam.engine.writers.stored import read_map
 
@@ -90,11 +96,14 @@ def explain(
     names = limit or (ALL if length == "full" else 6)
     iris = dict(stored.iris)
     if landmarks is not None:
-        place = bbox_of(bbox)
-        told, more = _restored(
-            stored, landmarks, ontology, crs, place, (segment, against, names, counterfactual)
-        )
-        iris |= more
+        from symboslam.engine.account import full_account
+
+        anew = _restored(stored, landmarks, ontology, crs, bbox_of(bbox))
+        told = full_account(
+            anew, segment, against=against, limit=names, listed=limit or LANDMARKS,
+            counterfactual=counterfactual,
+        )  # fmt: skip
+        iris |= {feature.name: feature.iri for feature in anew.knowledge.features}
     elif counterfactual:
         raise InputError(
             f"{source} does not say where each landmark is and what it adds: give the landmarks "
@@ -107,7 +116,7 @@ def explain(
     if as_json or form == "json":
         typer.echo(json_of(told, length))
     elif form == "ttl":
-        typer.echo(as_turtle(told, iris, length), nl=False)
+        typer.echo(as_turtle(told, iris, length, stored.segment_iris.get(segment)), nl=False)
     else:
         show(text_of(told, length))
 
@@ -118,17 +127,12 @@ def _restored(
     ontology: Path | None,
     crs: str | None,
     bbox: tuple[float, float, float, float] | None,
-    wanted: tuple[str, str | None, int, bool],
-) -> tuple[Account, dict[str, str]]:
-    """The account of a segment from the map's landmarks, and IRIs of all features by name."""
-    from symboslam.engine.account import full_account
+) -> EnvironmentMap:
+    """The map with its landmarks."""
     from symboslam.engine.readers import read_landmarks
     from symboslam.engine.writers.restored import restored
 
-    segment, against, limit, counterfactual = wanted
     with progress_bar() as progress:
         knowledge = load_knowledge(ontology, progress)
         marks = read_landmarks(landmarks, knowledge, crs=crs, bbox=bbox, progress=progress)
-        found = restored(stored, marks, knowledge)
-    told = full_account(found, segment, against=against, limit=limit, counterfactual=counterfactual)
-    return told, {feature.name: feature.iri for feature in knowledge.features}
+        return restored(stored, marks, knowledge)
