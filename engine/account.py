@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from symboslam.engine.evidence import one_thread
 from symboslam.engine.explanation import Explanation, Reason
 from symboslam.engine.landmark_parts import LANDMARKS, LandmarkParts, parts_of
 from symboslam.errors import InputError
@@ -80,7 +81,7 @@ class Taken:
 
 @dataclass(frozen=True)
 class Change:
-    """A counterfactual in names; see ``counterfactual.Counterfactual``."""
+    """A counterfactual in names; see ``changes.Counterfactual``."""
 
     environment: str | None
     probability: float
@@ -89,6 +90,7 @@ class Change:
     place: tuple[float, float] | None
     minimal: bool
     tried: int
+    anew: bool
 
 
 @dataclass(frozen=True)
@@ -189,25 +191,25 @@ def full_account(
     m = environment_map
     if against is not None:
         m.column_of(against)
-    told = account_of(
-        m.explain(segment_id), m.knowledge.find_indication, against=against, limit=limit
-    )
+    with one_thread():
+        explained = m.explain(segment_id)
+    told = account_of(explained, m.knowledge.find_indication, against=against, limit=limit)
     i = m.position_of(segment_id)
     if m.label[i] < 0:
         return replace(told, counterfactuals=() if counterfactual else None)
     told = replace(told, indications=told.indications + _of_zones(m, told.explanation))
-    try:
-        local = local_evidence(m, i)
-    except InputError:
-        if counterfactual:
-            raise
-        return told
-    parts = parts_of(m, local, int(m.label[i]), listed)
-    changes = None
-    if counterfactual:
+    with one_thread():
+        try:
+            local = local_evidence(m, i)
+        except InputError:
+            if counterfactual:
+                raise
+            return told
+        told = replace(told, parts=parts_of(m, local, int(m.label[i]), listed))
+        if not counterfactual:
+            return told
         found = counterfactuals(m, segment_id, against=against, local=local)
-        changes = tuple(_change(m, each) for each in found)
-    return replace(told, parts=parts, counterfactuals=changes)
+    return replace(told, counterfactuals=tuple(_change(m, each) for each in found))
 
 
 def _of_zones(m: EnvironmentMap, explanation: Explanation) -> tuple[Indication, ...]:
@@ -269,5 +271,12 @@ def _change(m: EnvironmentMap, found: Counterfactual) -> Change:
         x, y = marks.frame.from_metres(np.array([found.place[0]]), np.array([found.place[1]]))
         place = (float(x[0]), float(y[0]))
     return Change(
-        found.environment, found.probability, without, plus, place, found.minimal, found.tried
+        found.environment,
+        found.probability,
+        without,
+        plus,
+        place,
+        found.minimal,
+        found.tried,
+        found.anew,
     )

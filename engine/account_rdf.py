@@ -234,6 +234,7 @@ class _Graph:
         add((node, sl.probability, self._decimal(change.probability)))
         add((node, sl.provedMinimal, Literal(change.minimal)))
         add((node, sl.tries, Literal(change.tried)))
+        add((node, sl.classifiedAnew, Literal(change.anew)))
         for taken in change.without:
             self._changed(node, sl.removes, taken)
         if change.plus is not None:

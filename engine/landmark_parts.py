@@ -82,6 +82,8 @@ class LandmarkParts:
             landmarks do that stand too far away to add anything but deny others something.
         counted: whether ``own`` is a landmark's part of the share of inferences (evidence from
             pairs) and not what it says by itself (a density, or one landmark alone).
+        held: whether ``without`` is what a fragment is if it is otherwise held as it is; cut anew,
+            the map may have other fragments.
         crs: IRI of the coordinate system of all positions; empty where there are none.
     """
 
@@ -91,6 +93,7 @@ class LandmarkParts:
     pairs: tuple[PairPart, ...] = ()
     other_pairs: float | None = None
     counted: bool = False
+    held: bool = False
     crs: str = ""
 
 
@@ -103,7 +106,7 @@ def parts_of(m: EnvironmentMap, local: LocalEvidence, label: int, listed: int) -
         label: column of the environment.
         listed: how many landmarks, and how many pairs, to list.
     """
-    from symboslam.engine.local import LocalPairs
+    from symboslam.engine.local import LocalFragment, LocalPairs
 
     each = (local.own + local.pairs)[:, label]
     order = np.argsort(-np.abs(each), kind="stable")
@@ -117,6 +120,7 @@ def parts_of(m: EnvironmentMap, local: LocalEvidence, label: int, listed: int) -
         pairs,
         float(local.pairs[:, label].sum() / total - sum(pair.contribution for pair in pairs)),
         isinstance(local, LocalPairs) and len(local.landmark) > 1,
+        isinstance(local, LocalFragment),
         CRS84 if m.landmarks.frame.geographic else LOCAL_METRES,
     )
 
@@ -155,7 +159,7 @@ def _pairs(
     total, marks, known = local.total.sum(), m.landmarks, m.knowledge.features
     loudest = np.abs(local.own + local.pairs).max(1, initial=0)
     among = np.argsort(-loudest, kind="stable")[: max(AMONG, min(listed, MOST))]
-    through = local.between(among, label)[among] / total
+    through = local.between(among, label) / total
     together = np.triu(through + through.T, 1)
     rows, columns = np.nonzero(together)
     parts = together[rows, columns]

@@ -108,7 +108,7 @@ class LocalEvidence(ABC):
 
     @abstractmethod
     def between(self, rows: Ints, e: int) -> Floats:
-        """(m, q) what each landmark's ``pairs`` for environment e are through each of (q,) rows."""
+        """(q, q) what ``pairs`` of (q,) landmarks for environment e are through each of them."""
 
     def _kept(self, chosen: Ints, sets: Sets) -> Floats:
         """(b, m) 1 for the landmarks that a set leaves."""
@@ -183,10 +183,10 @@ class LocalField(LocalEvidence):
 
     def between(self, rows: Ints, e: int) -> Floats:
         """See the base class: what each neighbour denies."""
-        close = self._closeness(self._xy[rows]).T
-        close[rows, np.arange(len(rows))] = 0
-        weight, total = self._weight[rows], self._around.sum(1)
-        scale = np.divide(self.own[:, e], total, out=np.zeros_like(total), where=total > 1e-12)
+        close = self._closeness(self._xy[rows])[:, rows]
+        np.fill_diagonal(close, 0)
+        weight, total = self._weight[rows], self._around[rows].sum(1)
+        scale = np.divide(self.own[rows, e], total, out=np.zeros_like(total), where=total > 1e-12)
         away = weight.sum(1) - weight[:, e]  # (q,) what points elsewhere
         return np.asarray(-self._deny * scale[:, None] * close * away)
 
@@ -244,10 +244,12 @@ class LocalPairs(LocalEvidence):
 
     def between(self, rows: Ints, e: int) -> Floats:
         """See the base class: each pair's part of a C, half of it for each of the two."""
-        similar = self._similar(self._xy[rows]).T
-        similar[rows, np.arange(len(rows))] = 0
+        from scipy.spatial.distance import cdist
+
+        similar = np.maximum(1 - cdist(self._xy[rows], self._xy[rows]) / self._diagonal, 0)
+        np.fill_diagonal(similar, 0)
         n = self._size[e] * (self._size[e] - 1)
-        both = self._weight[:, e, None] * self._member[rows, e]
+        both = self._weight[rows, e, None] * self._member[rows, e]
         return np.asarray(similar * both * (self._settings.a / n if n else 0.0))
 
 

@@ -139,7 +139,8 @@ def _parts(account: Account) -> Iterator[str]:
     parts, name = account.parts, account.explanation.environment
     own = "by being counted" if parts.counted else "by itself"
     if parts.landmarks:
-        yield f"The strongest landmarks for {name}:"
+        held = " (P without one: of the fragment otherwise as it is)" if parts.held else ""
+        yield f"The strongest landmarks for {name}{held}:"
         for mark in parts.landmarks:
             without = "" if mark.without is None else f"; without it P = {mark.without:.4f}"
             yield (
@@ -180,15 +181,13 @@ def _changes(account: Account) -> Iterator[str]:
 def _change(change: Change) -> str:
     to = "unknown" if change.environment is None else change.environment
     then = f"{to} (P = {change.probability:.2f})" if change.environment else to
+    if not change.anew:
+        then += ", if the segment's outline stays as it is"
     if change.plus is not None:
         more = f"{change.plus.count} more landmark{'s' if change.plus.count > 1 else ''}"
         return f"with {more} in its middle ({change.plus.label}): {then}."
     taken = ", ".join(f"{_subject(each)} ({_ids(each)})" for each in change.without)
-    proof = (
-        "no smaller set does it"
-        if change.minimal
-        else f"the search ended at its bound after {change.tried} sets: a smaller one may do it too"
-    )
+    proof = "no smaller set does it" if change.minimal else "a smaller set may do it too"
     return f"without {taken}: {then}; {proof}."
 
 

@@ -214,6 +214,9 @@ class ExplanationInfo(BaseModel):
     counted: bool = Field(
         description="Whether `own` is what a landmark adds by being counted, and not by itself."
     )
+    held: bool = Field(
+        description="Whether `without` is what a fragment is if it is otherwise held as it is."
+    )
     crs: str = Field(description="IRI of the coordinate system of positions.")
     counterfactuals: list[Change] | None = Field(description="Null unless asked for.")
     indications: list[Indication] = Field(description="The axioms behind the reasons.")
