@@ -424,6 +424,7 @@ def test_like_neighbours_that_come_about_by_trades_merge(bundled: Knowledge) -> 
 
 
 @pytest.mark.slow
+@pytest.mark.timeout(1200)
 @pytest.mark.parametrize("kinds", [1, 200])
 def test_a_map_of_a_hundred_thousand(bundled: Knowledge, area: Any, kinds: int) -> None:
     rng = np.random.default_rng(kinds)

@@ -99,10 +99,12 @@ def explain(
         from symboslam.engine.account import full_account
 
         anew = _restored(stored, landmarks, ontology, crs, bbox_of(bbox))
-        told = full_account(
-            anew, segment, against=against, limit=names, listed=limit or LANDMARKS,
-            counterfactual=counterfactual,
-        )  # fmt: skip
+        with progress_bar() as progress:
+            progress("looking for changes" if counterfactual else "explaining", 0.5)
+            told = full_account(
+                anew, segment, against=against, limit=names, listed=limit or LANDMARKS,
+                counterfactual=counterfactual,
+            )  # fmt: skip
         iris |= {feature.name: feature.iri for feature in anew.knowledge.features}
     elif counterfactual:
         raise InputError(
