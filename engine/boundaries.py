@@ -59,23 +59,33 @@ class Parting:
         """
         if before is None:
             lines = pair_lines(xy, fragment)
-        else:
-            moved = fragment != before.fragment
-            changed = np.union1d(fragment[moved], before.fragment[moved])
-            here = np.flatnonzero(np.isin(fragment, changed))
-            old = before.lines[~np.isin(before.fragment[before.lines[:, 0]], changed)]
-            lines = np.concatenate([old, here[pair_lines(xy[here], fragment[here])]])
-        return cls(fragment, lines, crossings(xy, fragment, lines, reach))
+            return cls(fragment, lines, crossings(xy, fragment, lines, reach))
+        moved = fragment != before.fragment
+        changed = np.union1d(fragment[moved], before.fragment[moved])
+        here = np.flatnonzero(np.isin(fragment, changed))
+        old = before.lines[~np.isin(before.fragment[before.lines[:, 0]], changed)]
+        lines = np.concatenate([old, here[pair_lines(xy[here], fragment[here])]])
+        clear = 0 if len(before.crossings) else len(old)
+        return cls(fragment, lines, crossings(xy, fragment, lines, reach, clear))
 
 
-def crossings(xy: Floats, fragment: Ints, lines: Ints, reach: float) -> Ints:
-    """(c, 2) lines of different fragments that have a point in common, in order."""
+def crossings(xy: Floats, fragment: Ints, lines: Ints, reach: float, clear: int = 0) -> Ints:
+    """(c, 2) lines of different fragments that have a point in common, in order.
+
+    Args:
+        xy: (n, 2) positions in metres.
+        fragment: (n,) number of the fragment of each.
+        lines: (m, 2) lines between positions.
+        reach: longest line that counts, in metres.
+        clear: of so many lines at the beginning it is known that they do not cross each other.
+    """
     short = np.flatnonzero(np.hypot(*(xy[lines[:, 0]] - xy[lines[:, 1]]).T) <= reach)
     drawn = shapely.linestrings(xy[lines[short]])
-    one, two = shapely.STRtree(drawn).query(drawn, predicate="intersects")
-    one, two = short[one], short[two]
-    other = (one < two) & (fragment[lines[one, 0]] != fragment[lines[two, 0]])
-    found = np.column_stack([one[other], two[other]])
+    asked = np.flatnonzero(short >= clear)
+    one, two = shapely.STRtree(drawn).query(drawn[asked], predicate="intersects")
+    one, two = short[asked[one]], short[two]
+    other = (one > two) & (fragment[lines[one, 0]] != fragment[lines[two, 0]])
+    found = np.column_stack([two[other], one[other]])
     return np.asarray(found[np.lexsort(found.T[::-1])])
 
 

@@ -14,7 +14,7 @@ from symboslam.engine.environment_map import EnvironmentMap
 from symboslam.engine.fragments import FragmentEvidence, Fragments
 from symboslam.engine.growth import crowding, densest, grow
 from symboslam.engine.landmarks import LandmarkMap
-from symboslam.engine.merging import alike, merged, merged_uncrossed, neighbours
+from symboslam.engine.merging import alike, merge_alike, merged, neighbours
 from symboslam.engine.registry import Progress, Segmentation
 from symboslam.engine.settings import Settings
 from symboslam.engine.territories import rest_of, territories
@@ -68,25 +68,22 @@ class BranchSegmentation(Segmentation):
             places, place = np.unique(xy, axis=0, return_inverse=True)
             fragment = _numbered(_owners(fragment, place)[place])
             home = _owners(fragment, place)
-            next_to = neighbours(places, reach)
             label = _labels(evidence.probability(Fragments.of(fragment, xy)))
-            home = merged(home, alike(next_to, home, label))
+            home = merged(home, alike(neighbours(places, reach), home, label))
             # 3. Where their pair lines cross, landmarks are traded.
             home = settle(places, home, reach, part_of(tell, "parting", 0.5, 0.7))
             # 4. What has come to be next to its like merges, too, where no lines cross then; each
             #    time there are fewer fragments.
             home = _numbered(home)
-            label = _labels(evidence.probability(Fragments.of(home[place], xy)))
-            now = Parting.of(places, home, reach)
-            while len(pairs := alike(next_to, now.fragment, label)):
-                after = merged_uncrossed(places, now, pairs, reach)
-                changed = np.unique(after.fragment[after.fragment != now.fragment])
-                if not len(changed):
-                    break
-                now = after
-                some = Fragments.some(now.fragment[place], xy, changed)
-                label[changed] = _labels(evidence.probability(some))
-            fragment = _numbered(now.fragment[place])
+
+            def label_of(fragment: Ints, numbers: Ints) -> Ints:
+                some = Fragments.some(fragment[place], xy, numbers)
+                return _labels(evidence.probability(some))
+
+            label = label_of(home, np.arange(home.max() + 1))
+            parting = Parting.of(places, home, reach)
+            home = merge_alike(places, parting, label, reach, label_of)
+            fragment = _numbered(home[place])
             home[place] = fragment
             # 5. The ground near to a fragment's landmarks is its segment.
             tell("drawing segments", 0.8)

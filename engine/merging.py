@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import shapely
 from numpy.typing import NDArray
@@ -11,8 +13,8 @@ from symboslam.engine.triangulation import delaunay_edges, pair_lines
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
-WORK = 3_000_000
-"""Landmarks, summed over the pairs that are tried one by one; what is beyond stays apart."""
+WORK = 2_000_000
+"""Landmarks, summed over the pairs that are tried; what is beyond stays apart."""
 
 
 def neighbours(xy: Floats, reach: float) -> Ints:
@@ -53,59 +55,97 @@ def merged(fragment: Ints, pairs: Ints) -> Ints:
     return np.asarray(lowest[group][fragment], np.int64)
 
 
-def merged_uncrossed(xy: Floats, before: Parting, pairs: Ints, reach: float) -> Parting:
-    """As ``merged``, but only as far as no pair lines of two fragments cross afterwards.
+def merge_alike(
+    xy: Floats,
+    now: Parting,
+    label: Ints,
+    reach: float,
+    label_of: Callable[[Ints, Ints], Ints],
+) -> Ints:
+    """(n,) the fragments after all like neighbours have merged whose lines cross no others then.
 
-    Two fragments that a line joins which crosses another one are not merged; where there are no
-    such two, whatever is involved in a crossing stays as it is. Each round has fewer pairs, and
-    fragments that nothing merges with have no crossings, because they had none before. If nothing
-    is left to merge, the pairs are tried one by one.
+    In rounds, after each of which the environments of what has merged are looked at again. Each
+    round leaves fewer fragments, so it ends. What could not merge is not tried again before one of
+    the two has changed, but once more at the end.
 
     Args:
         xy: (n, 2) distinct positions in metres.
-        before: their fragments, of which no lines cross.
-        pairs: (j, 2) fragments that are to become one.
+        now: their fragments, of which no lines cross.
+        label: (f,) environment of each fragment; -1 = unknown.
         reach: longest line that counts, in metres.
+        label_of: from (n,) fragments and some of their numbers the environments of these.
     """
-    fragment, wanted = before.fragment, pairs
-    while len(pairs):
-        found = merged(fragment, pairs)
-        now = Parting.of(xy, found, reach, before)
-        if not len(now.crossings):
-            return now
-        ends = now.lines[np.unique(now.crossings)]
-        joined = np.sort(fragment[ends], 1)
-        bad = (pairs[:, None] == joined[None]).all(2).any(1)
-        if not bad.any():
-            bad = np.isin(merged(np.arange(fragment.max() + 1), pairs)[pairs[:, 0]], found[ends])
-        pairs = pairs[~bad]
-    return Parting.of(xy, _one_by_one(xy, before, wanted, reach), reach, before)
-
-
-def _one_by_one(xy: Floats, before: Parting, pairs: Ints, reach: float) -> Ints:
-    """(n,) the fragments after merging each pair that can be alone, each fragment once."""
-    fragment, work = before.fragment.copy(), WORK
-    short = before.lines[_no_longer(xy, before.lines, reach)]
-    tree = shapely.STRtree(shapely.linestrings(xy[short]))
-    taken: set[int] = set()
-    added = np.zeros(0, object)
-    for one, two in pairs.tolist():
-        here = np.flatnonzero((fragment == one) | (fragment == two))
-        if taken & {one, two} or (work := work - len(here)) < 0:
+    next_to, label = neighbours(xy, reach), label.copy()
+    refused = np.zeros(0, np.int64)
+    work = WORK
+    while True:
+        pairs = alike(next_to, now.fragment, label)
+        name = pairs[:, 0] * len(label) + pairs[:, 1]
+        round_ = _Round(xy, now, reach, work)
+        for one, two in pairs[~np.isin(name, refused)].tolist():
+            round_.merge(one, two)
+        work = round_.work
+        if not len(changed := round_.changed()):
+            if not len(refused):
+                return now.fragment
+            refused = np.zeros(0, np.int64)
             continue
-        lines = here[pair_lines(xy[here], np.zeros(len(here), np.int64))]
-        drawn = shapely.linestrings(xy[lines[_no_longer(xy, lines, reach)]])
-        near = before.fragment[short[tree.query(drawn, predicate="intersects")[1], 0]]
-        if np.isin(near, (one, two), invert=True).any():
-            continue
-        if len(shapely.STRtree(added).query(drawn, predicate="intersects")[0]):
-            continue
-        fragment[here] = one
-        taken |= {one, two}
-        added = np.append(added, drawn)
-    return fragment
+        now = round_.parting()
+        label[changed] = label_of(now.fragment, changed)
+        refused = name[~np.isin(pairs, changed).any(1)]
 
 
-def _no_longer(xy: Floats, lines: Ints, reach: float) -> NDArray[np.bool_]:
-    """(m,) which lines count: those that are not longer than the reach."""
-    return np.asarray(np.hypot(*(xy[lines[:, 0]] - xy[lines[:, 1]]).T) <= reach)
+class _Round:
+    """One round of merges, each made only if its new lines cross none that there are."""
+
+    def __init__(self, xy: Floats, before: Parting, reach: float, work: int) -> None:
+        self._xy, self._before, self._reach, self.work = xy, before, reach, work
+        self._fragment = before.fragment.copy()
+        self._group = np.arange(self._fragment.max() + 1)
+        self._lines: dict[int, Ints] = {}
+        self._short = before.lines[self._no_longer(before.lines)]
+        self._tree = shapely.STRtree(shapely.linestrings(xy[self._short]))
+        self._old = np.unique(self._names(before.lines))
+        self._new: dict[int, NDArray[np.object_]] = {}
+
+    def merge(self, one: int, two: int) -> None:
+        """Make two fragments one, which keeps the lower number, if no lines cross then."""
+        one, two = sorted(self._group[[one, two]].tolist())
+        here = np.flatnonzero((self._fragment == one) | (self._fragment == two))
+        if one == two or self.work < len(here):
+            return
+        self.work -= len(here)
+        lines = here[pair_lines(self._xy[here], np.zeros(len(here), np.int64))]
+        new = lines[self._no_longer(lines) & ~np.isin(self._names(lines), self._old)]
+        drawn = shapely.linestrings(self._xy[new])
+        near = self._short[self._tree.query(drawn, predicate="intersects")[1], 0]
+        if np.isin(self._fragment[near], (one, two), invert=True).any():
+            return
+        others = [d for number, d in self._new.items() if number not in (one, two)]
+        if others and len(
+            shapely.STRtree(np.concatenate(others)).query(drawn, predicate="intersects")[0]
+        ):
+            return
+        self._fragment[here] = one
+        self._group[self._group == two] = one
+        self._lines.pop(two, None), self._new.pop(two, None)
+        self._lines[one], self._new[one] = lines, drawn
+
+    def changed(self) -> Ints:
+        """Numbers of the fragments that have taken others in."""
+        return np.array(sorted(self._lines), np.int64)
+
+    def parting(self) -> Parting:
+        """The fragments after the round."""
+        gone = np.isin(self._fragment[self._before.lines[:, 0]], self.changed())
+        lines = np.concatenate([self._before.lines[~gone], *self._lines.values()])
+        return Parting(self._fragment, lines, self._before.crossings)
+
+    def _names(self, lines: Ints) -> Ints:
+        low, high = lines.min(1, initial=len(self._xy)), lines.max(1, initial=0)
+        return np.asarray(low * len(self._xy) + high)
+
+    def _no_longer(self, lines: Ints) -> NDArray[np.bool_]:
+        """(m,) which lines count: those that are not longer than the reach."""
+        ends = self._xy[lines]
+        return np.asarray(np.hypot(*(ends[:, 0] - ends[:, 1]).T) <= self._reach)
