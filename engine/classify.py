@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import traceback
 from typing import Any
 
 from symboslam.engine.environment_map import EnvironmentMap
 from symboslam.engine.landmarks import LandmarkMap
 from symboslam.engine.registry import Progress, segmentation_of
 from symboslam.engine.settings import settings_of
-from symboslam.errors import InputError
+from symboslam.errors import InputError, SegmentationError, SymboSlamError
 from symboslam.reasoning.knowledge import Knowledge
 
 
@@ -36,6 +37,7 @@ def classify(
 
     Raises:
         UnknownNameError: no such profile, scheme, segmentation or setting.
+        SegmentationError: a segmentation that is not ours failed.
         InputError: a setting out of its range, or one that the segmentation does not use.
     """
     chosen = segmentation_of(segmentation)
@@ -47,4 +49,15 @@ def classify(
         )
     settings = settings_of(profile, **changes)
     tell = progress or (lambda stage, share: None)
-    return chosen.cut(landmarks, knowledge, scheme, settings, tell)
+    try:
+        return chosen.cut(landmarks, knowledge, scheme, settings, tell)
+    except SymboSlamError:
+        raise
+    except Exception as error:
+        if type(chosen).__module__.startswith("symboslam."):
+            raise
+        frame = traceback.extract_tb(error.__traceback__)[-1]
+        raise SegmentationError(
+            f"the segmentation {segmentation} ({type(chosen).__module__}) failed: "
+            f"{type(error).__name__}: {error} [{frame.filename}: line {frame.lineno}]"
+        ) from error

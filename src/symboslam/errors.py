@@ -12,6 +12,7 @@
     │   ├── ImportsError              an import that is not found, or that leads back to its start
     │   ├── InconsistentOntologyError it contradicts itself; carries the clashing axioms
     │   └── EmptyOntologyError        it declares no environments or no indications
+    ├── SegmentationError       a segmentation that is not ours failed; names it and where (2)
     ├── OutputError             a result could not be written; what was there before is kept (2)
     ├── StoreError              the service's store cannot be opened, read or written (exit code 2)
     ├── ServiceError            a service that was asked is out of reach or has failed (exit code 3)
@@ -84,6 +85,10 @@ class InconsistentOntologyError(OntologyError):
 
 class EmptyOntologyError(OntologyError):
     """An ontology without environments, or without features that indicate them."""
+
+
+class SegmentationError(SymboSlamError):
+    """A segmentation that somebody registered or installed has failed."""
 
 
 class OutputError(SymboSlamError):

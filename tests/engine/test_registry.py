@@ -21,7 +21,7 @@ from symboslam.engine.landmarks import LandmarkMap
 from symboslam.engine.registry import Segmentation, register, segmentation_of, segmentations
 from symboslam.engine.settings import Settings
 from symboslam.engine.weights import weights_of
-from symboslam.errors import InputError, UnknownNameError
+from symboslam.errors import InputError, SegmentationError, UnknownNameError
 from symboslam.reasoning.knowledge import Knowledge
 
 
@@ -117,3 +117,29 @@ def test_installed_packages_bring_theirs(monkeypatch: pytest.MonkeyPatch) -> Non
         segmentation_of("gone")
     with pytest.raises(InputError, match="json:loads is no Segmentation"):
         segmentation_of("wrong")
+
+
+def test_one_that_fails_is_named_with_the_place(knowledge: Knowledge, landmarks_at: Any) -> None:
+    class Broken(Halves):
+        name: ClassVar[str] = "broken"
+
+        def cut(self, *arguments: Any) -> EnvironmentMap:
+            raise ZeroDivisionError("no cells")
+
+    register(Broken)
+    with pytest.raises(
+        SegmentationError, match=r"broken \(.*\) failed: ZeroDivisionError: no"
+    ) as e:
+        classify(landmarks_at([("House", 1, 1)]), knowledge, segmentation="broken")
+    assert "test_registry.py: line" in str(e.value)
+
+
+@pytest.mark.parametrize(
+    ("segmentation", "changes"),
+    [("branch", {"cells": 12}), ("grid", {"momentum": 2}), ("branch", {"threshold": 0.5})],
+)
+def test_settings_that_it_does_not_use_are_refused(
+    knowledge: Knowledge, landmarks_at: Any, segmentation: str, changes: dict[str, Any]
+) -> None:
+    with pytest.raises(InputError, match=f"{next(iter(changes))} would change nothing"):
+        classify(landmarks_at([("House", 1, 1)]), knowledge, segmentation=segmentation, **changes)
