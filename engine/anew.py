@@ -90,4 +90,5 @@ class _Proof:
         if change.added is not None:
             self._done.add(change.added)
         p = float(again.probability[i].max()) if name is not None else 0.0
-        return replace(change, environment=name, probability=p, anew=True, minimal=False)
+        alone = len(change.removed) + change.count == 1  # there is no smaller change
+        return replace(change, environment=name, probability=p, anew=True, minimal=alone)
