@@ -179,7 +179,7 @@ class Statements:
         """What was stated of an overridden segment, to be stated as long as it is gone."""
         found = self._overrides.get(segment, [])
         own, other = self._graph("segments"), self._graph("overrides")
-        lines = found[-1].snapshot.splitlines(keepends=True) if found else []
+        lines = _lines_of(found[-1].snapshot) if found else []
         return frozenset(line.replace(f" {own} .\n", f" {other} .\n") for line in lines)
 
     def _of(self, override: Override) -> list[str]:
@@ -207,7 +207,7 @@ class Statements:
             (s.iri(RDFS + "label"), [s.text(override.operator)]),
         ]
         records = [(s.own("override", override.id), stated), (operator, who)]
-        return self._text(records, "overrides").splitlines(keepends=True)
+        return _lines_of(self._text(records, "overrides"))
 
     def _graph(self, name: str) -> str:
         return self._syntax.own(name)
@@ -217,4 +217,9 @@ class Statements:
         return "".join(self._syntax.statements(name, s, p) for s, p in records)
 
     def _lines(self, records: Iterable[Record], graph: str) -> Lines:
-        return frozenset(self._text(records, graph).splitlines(keepends=True))
+        return frozenset(_lines_of(self._text(records, graph)))
+
+
+def _lines_of(text: str) -> list[str]:
+    """The lines of N-Quads: others take more than a line feed for the end of a line."""
+    return [line + "\n" for line in text.split("\n")[:-1]]

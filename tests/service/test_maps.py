@@ -349,6 +349,21 @@ def test_overrides_are_statements_of_their_own(shared: Service, tmp_path: Path) 
     assert [each["undone"] is None for each in history] == [False, False]
 
 
+@pytest.mark.parametrize("mark", ["\x85", "\u2028", "\u2029", '"', "\\"])
+def test_a_text_may_have_what_some_take_for_the_end_of_a_line(shared: Service, mark: str) -> None:
+    identifier = make(shared, segmentation={"cells": 8})
+    send(shared, identifier, at("House", 100, 100) | {"agent": f"a{mark}b"})
+    segment = get(shared, f"{identifier}/segments")["features"][0]["properties"]["segment_id"]
+    path = f"/v1/maps/{identifier}/segments/{segment}/override"
+    said = {"environment": "Military", "reason": f"a{mark}b", "operator": f"A{mark}da"}
+    for _ in range(2):  # the second time the first is taken back
+        made = shared.client.put(path, json=said, headers=ADMIN)
+        assert made.status_code == 200, made.text
+    base = get(shared, identifier)["iri"].removesuffix("map")
+    query = f"{SL} SELECT ?why {{ GRAPH <{base}overrides> {{ ?o sl:overrideReason ?why }} }}"
+    assert {row[0] for row in shared.values(query)} == {said["reason"]}
+
+
 def test_an_override_outlives_its_segment(shared: Service, tmp_path: Path) -> None:
     identifier = make(shared, segmentation={"cells": 8})
     path = f"/v1/maps/{identifier}/segments/0-0-0/override"
