@@ -96,7 +96,11 @@ def merge_alike(
 
 
 class _Round:
-    """One round of merges, each made only if its new lines cross none that there are."""
+    """One round of merges, each made only if its new lines cross none that there are.
+
+    Lines that were there before cross none that were; whether they cross one that a merge adds is
+    looked at when it is added.
+    """
 
     def __init__(self, xy: Floats, before: Parting, reach: float, work: int) -> None:
         self._xy, self._before, self._reach, self.work = xy, before, reach, work
@@ -128,7 +132,8 @@ class _Round:
             return
         self._fragment[here] = one
         self._group[self._group == two] = one
-        self._lines.pop(two, None), self._new.pop(two, None)
+        self._lines.pop(two, None)
+        self._new.pop(two, None)
         self._lines[one], self._new[one] = lines, drawn
 
     def changed(self) -> Ints:
