@@ -9,10 +9,12 @@ import pytest
 import shapely
 
 from symboslam.engine import anew
+from symboslam.engine.account import full_account
 from symboslam.engine.changes import MOST, Counterfactual, applied
 from symboslam.engine.classify import classify
-from symboslam.engine.counterfactual import counterfactuals
+from symboslam.engine.counterfactual import counterfactuals, without
 from symboslam.engine.environment_map import EnvironmentMap
+from symboslam.engine.wording import text_of
 from symboslam.reasoning.knowledge import Knowledge
 
 KINDS = ["House", "Apartment", "ClothesShop", "Hotel", "Factory", "Warehouse"]
@@ -68,7 +70,19 @@ def test_on_a_map_too_large_to_be_cut_anew_that_is_said(
     quarters: EnvironmentMap, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(anew, "LANDMARKS", 100)
-    i = int(np.flatnonzero(quarters.label >= 0)[0])
-    found = counterfactuals(quarters, str(quarters.segment_id[i]))
-    assert found
-    assert not any(change.anew or change.minimal for change in found)
+    told = fewer = 0
+    for i in np.flatnonzero(quarters.label >= 0)[:6].tolist():
+        name = str(quarters.segment_id[i])
+        found = counterfactuals(quarters, name)
+        assert not any(change.anew or change.minimal for change in found)
+        for change in (c for c in found if c.removed):
+            p = without(quarters, name, list(change.removed))
+            best = max(p, key=p.__getitem__) if any(p.values()) else None
+            assert best == change.environment != quarters.name_of(i)
+            fewer += 1
+        words = text_of(full_account(quarters, name, counterfactual=True), "full")
+        assert words.count("if the segment's outline stays as it is") == len(found)
+        assert "P without one: of the fragment otherwise as it is" in words
+        told += len(found)
+    assert fewer >= 3
+    assert told > fewer
