@@ -351,6 +351,7 @@ HEAD = """@prefix : <https://example.org/mine#> .
 """
 
 
+@pytest.mark.proof
 @pytest.mark.usefixtures("java")
 @pytest.mark.parametrize(
     ("text", "words"),
@@ -381,6 +382,7 @@ def test_findings_have_exit_code_1(run: Any, tmp_path: Path) -> None:
     assert "There" in result.out  # nothing indicates it
 
 
+@pytest.mark.proof
 @pytest.mark.usefixtures("java")
 def test_our_own_ontology_is_clean(run: Any) -> None:
     assert run("ontology", "check").code == 0

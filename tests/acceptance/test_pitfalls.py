@@ -325,6 +325,7 @@ def action_scan(folder: Path, **inputs: str) -> subprocess.CompletedProcess[str]
     )  # fmt: skip
 
 
+@pytest.mark.proof
 def test_the_action(tmp_path: Path) -> None:
     (tmp_path / "my ontology").mkdir()
     write(tmp_path, SOUND + CYCLE)
