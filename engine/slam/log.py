@@ -1,0 +1,169 @@
+"""RobotLog: what one robot drove and saw, column by column; a Mission is the logs of several."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Pose = tuple[float, float, float]
+"""x and y in metres, heading in radians counted from x to y."""
+
+ROBOT = -1
+"""Class of a robot that was seen."""
+
+
+@dataclass(frozen=True)
+class OdometryNoise:
+    """Standard deviations of one step of odometry: a part for the way, one for the turn.
+
+    Attributes:
+        along: of the way, as a share of it.
+        across: sideways, as a share of the way.
+        turn: of the heading, as a share of the turn.
+        drift: of the heading, in radians a metre of way.
+        floor: (along, across, heading) that each step has even if nothing moves.
+    """
+
+    along: float = 0.05
+    across: float = 0.02
+    turn: float = 0.05
+    drift: float = 0.0
+    floor: tuple[float, float, float] = (0.003, 0.002, 0.003)
+
+    def sigmas(self, steps: Floats) -> Floats:
+        """(n, 3) standard deviations of (n, 3) steps."""
+        way, turn = np.hypot(steps[:, 0], steps[:, 1]), np.abs(steps[:, 2])
+        spread = np.column_stack(
+            [self.along * way, self.across * way, self.turn * turn + self.drift * way]
+        )
+        return np.asarray(np.hypot(spread, self.floor))
+
+
+@dataclass(frozen=True)
+class Odometry:
+    """Where a robot believes to have gone, in its own frame (REP 105's ``odom``).
+
+    Attributes:
+        time: (n,) seconds, increasing.
+        pose: (n, 3) x, y, heading.
+        noise: how far a step may be off.
+    """
+
+    time: Floats
+    pose: Floats
+    noise: OdometryNoise = OdometryNoise()
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+
+@dataclass(frozen=True)
+class Measurements:
+    """What a robot saw, one row each; NaN stands for what a sensor does not measure.
+
+    Attributes:
+        time: (m,) seconds.
+        range: (m,) metres; NaN for a bearing alone.
+        bearing: (m,) radians from the robot's heading; NaN for a range alone.
+        feature: (m,) position in ``Mission.classes``, or ``ROBOT``.
+        confidence: (m,) of the class, in (0, 1].
+        key: (m,) what names the thing seen beyond doubt, such as the text of a sign; "" for none.
+        sigma_range: metres.
+        sigma_bearing: radians.
+    """
+
+    time: Floats
+    range: Floats
+    bearing: Floats
+    feature: Ints
+    confidence: Floats
+    key: NDArray[np.object_]
+    sigma_range: float = 0.5
+    sigma_bearing: float = 0.02
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    def take(self, index: NDArray[np.bool_] | Ints) -> Measurements:
+        """The rows at ``index``."""
+        columns = (self.time, self.range, self.bearing, self.feature, self.confidence, self.key)
+        return Measurements(
+            *(column[index] for column in columns), self.sigma_range, self.sigma_bearing
+        )
+
+
+@dataclass(frozen=True)
+class Fixes:
+    """Positions from outside, such as GPS, in the collective frame.
+
+    Attributes:
+        time: (g,) seconds.
+        xy: (g, 2) metres.
+        sigma: (g,) metres.
+    """
+
+    time: Floats
+    xy: Floats
+    sigma: Floats
+
+
+@dataclass(frozen=True)
+class RobotLog:
+    """All that one robot has to tell.
+
+    Attributes:
+        name: of the robot.
+        odometry: where it believes to have gone.
+        seen: what it saw.
+        start: where it was when its odometry began, in the collective frame; None if not known.
+        start_sigma: standard deviations of that.
+        fixes: positions from outside.
+    """
+
+    name: str
+    odometry: Odometry
+    seen: Measurements
+    start: Pose | None = None
+    start_sigma: Pose = (0.01, 0.01, 0.01)
+    fixes: Fixes | None = None
+
+
+@dataclass(frozen=True)
+class Truth:
+    """What really was, for those who measure.
+
+    Attributes:
+        landmarks: name -> (x, y).
+        trajectories: robot -> (n, 4) time, x, y, heading.
+        features: name of a landmark -> its class, where known.
+    """
+
+    landmarks: dict[str, tuple[float, float]]
+    trajectories: dict[str, Floats]
+    features: dict[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Mission:
+    """The logs of robots that were in the same place.
+
+    Attributes:
+        robots: their logs.
+        classes: names of the classes of what they saw.
+        dynamic: (C,) which classes move and so are no landmarks.
+        similarity: (C, C) how alike two classes are, in [0, 1]; the unit matrix if not known.
+        identity: for measuring alone: robot -> (m,) the name of what each row of ``seen`` is of,
+            by the truth; the estimators never look at it.
+        truth: what really was.
+    """
+
+    robots: tuple[RobotLog, ...]
+    classes: tuple[str, ...]
+    dynamic: NDArray[np.bool_]
+    similarity: Floats
+    identity: dict[str, NDArray[np.object_]] = field(default_factory=dict)
+    truth: Truth | None = None
