@@ -112,6 +112,21 @@ class Fixes:
 
 
 @dataclass(frozen=True)
+class Closures:
+    """Relative poses that somebody else worked out, such as a scan matcher (g2o's ``EDGE_SE2``).
+
+    Attributes:
+        time: (k, 2) seconds: when the robot was at the first pose, and at the second.
+        step: (k, 3) the second pose in the frame of the first.
+        covariance: (k, 3, 3) of the steps.
+    """
+
+    time: Floats
+    step: Floats
+    covariance: Floats
+
+
+@dataclass(frozen=True)
 class RobotLog:
     """All that one robot has to tell.
 
@@ -122,6 +137,7 @@ class RobotLog:
         start: where it was when its odometry began, in the collective frame; None if not known.
         start_sigma: standard deviations of that.
         fixes: positions from outside.
+        closures: relative poses from outside.
     """
 
     name: str
@@ -130,6 +146,7 @@ class RobotLog:
     start: Pose | None = None
     start_sigma: Pose = (0.01, 0.01, 0.01)
     fixes: Fixes | None = None
+    closures: Closures | None = None
 
 
 @dataclass(frozen=True)
