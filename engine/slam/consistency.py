@@ -1,0 +1,87 @@
+"""Consistency: whether a solved map can be trusted, and if not, why."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from symboslam.engine.slam.edge_map import EdgeMap
+from symboslam.engine.slam.joint import JointGraph, Member
+from symboslam.engine.slam.log import Floats
+from symboslam.engine.slam.meetings import seen_robots
+from symboslam.engine.slam.planar import between, wrap
+
+MISFITS = 0.15
+"""Share of a robot's sightings beyond four standard deviations, from which it is doubted."""
+UNMET = 0.5
+"""Share of robots seen that are where no robot is, from which a robot is doubted."""
+WINDOW = 30
+"""Steps over which odometry is compared with the map."""
+BENT = 12.0
+"""Mean squared residual of odometry, in standard deviations, from which a robot is doubted."""
+
+
+def doubts(graph: JointGraph, edges: list[EdgeMap]) -> list[str]:
+    """Why a map should not be trusted, one sentence each.
+
+    A bent map shows in sightings that do not fit their landmarks, in odometry that is worse than
+    it says it is, and in robots seen where none is.
+    """
+    said = []
+    fits = misfits(graph)
+    met = {number: 0 for number in range(len(graph.members))}
+    for number, *_ in graph.meetings:
+        met[number] += 1
+    for number, (member, edge) in enumerate(zip(graph.members, edges, strict=True)):
+        if edge.trouble:
+            said.append(f"{member.name}: its own map could not be kept up to date: {edge.trouble}")
+        share, total = fits[number]
+        if total >= 20 and share > MISFITS:
+            said.append(
+                f"{member.name}: {share:.0%} of {total} sightings do not fit the map "
+                f"(more than {MISFITS:.0%})"
+            )
+        bend = bending(member)
+        if bend > BENT:
+            said.append(
+                f"{member.name}: the map bends its odometry {bend**0.5:.1f} times as much as "
+                f"its noise allows"
+            )
+        robots = len(seen_robots(member))
+        if len(graph.members) > 1 and robots >= 20 and met[number] < (1 - UNMET) * robots:
+            said.append(
+                f"{member.name}: of {robots} robots that it saw, only {met[number]} are where "
+                f"a robot is"
+            )
+    return said
+
+
+def misfits(graph: JointGraph) -> list[tuple[float, int]]:
+    """For each robot the share of its sightings that do not fit, and how many there are."""
+    bad, total = np.zeros(len(graph.members), int), np.zeros(len(graph.members), int)
+    for piece in graph.pieces:
+        poses = graph.members[piece.member].poses[piece.at]
+        away = graph.xy[piece.label] - poses[:, :2]
+        reach = np.hypot(away[:, 0], away[:, 1])
+        turn = wrap(np.arctan2(away[:, 1], away[:, 0]) - poses[:, 2])
+        seen = piece.track.sightings
+        off = (reach - [s.range for s in seen]) / [s.sigma_range for s in seen]
+        aside = wrap(turn - [s.bearing for s in seen]) / [s.sigma_bearing for s in seen]
+        bad[piece.member] += int((off**2 + aside**2 > 16).sum())
+        total[piece.member] += len(seen)
+    return [(float(b / max(t, 1)), int(t)) for b, t in zip(bad, total, strict=True)]
+
+
+def bending(member: Member) -> float:
+    """Mean squared residual of odometry over windows, in standard deviations; about 1 if right."""
+    if len(member.poses) < WINDOW + 2:
+        return 1.0
+    got = between(member.poses[:-1], member.poses[1:])
+    left = got - member.step[1:]
+    left[:, 2] = wrap(left[:, 2])
+    return float(np.max(np.mean(_windows(left) ** 2 / _windows(member.sigma[1:] ** 2), axis=0)))
+
+
+def _windows(values: Floats) -> Floats:
+    """(n - WINDOW, 3) sums over windows."""
+    sums = np.cumsum(np.vstack([np.zeros(3), values]), axis=0)
+    return np.asarray(sums[WINDOW:] - sums[:-WINDOW])

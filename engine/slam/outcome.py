@@ -1,0 +1,114 @@
+"""Outcome: a solved joint graph as a SlamMap."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symboslam.engine.slam.beliefs import ClassBeliefs
+from symboslam.engine.slam.edge_map import EdgeMap
+from symboslam.engine.slam.joint import JointGraph, Piece
+from symboslam.engine.slam.log import Floats
+from symboslam.engine.slam.run import Run
+from symboslam.engine.slam.slam_map import MappedLandmarks, SlamMap, Trajectory
+
+OFTEN = 4
+"""Where half of all sightings are of things seen so often, one seen once is an outlier."""
+
+
+def outcome(
+    graph: JointGraph,
+    runs: list[Run],
+    edges: list[EdgeMap],
+    placed: list[int],
+    dynamic: NDArray[np.bool_],
+    similarity: Floats,
+    doubts: list[str],
+    notes: list[str],
+) -> SlamMap:
+    """What was mapped.
+
+    Args:
+        graph: solved.
+        runs: all of them.
+        edges: their own maps.
+        placed: number of the run of each member of the graph.
+        dynamic: (C,) which classes move.
+        similarity: (C, C) how alike classes are.
+        doubts: why the map should not be trusted.
+        notes: what was left out.
+    """
+    groups: dict[int, list[Piece]] = {}
+    for piece in graph.pieces:
+        groups.setdefault(piece.label, []).append(piece)
+    next_label = max(groups, default=-1) + 1
+    for number, run in enumerate(placed):
+        for track in edges[run].moving.tracks:
+            piece = Piece(number, track, next_label)
+            graph.xy[next_label] = piece.where(graph.members[number].poses)[0]
+            groups[next_label] = [piece]
+            next_label += 1
+    notes = list(notes)
+    groups, outliers = _without_outliers(groups)
+    if outliers:
+        notes.append(f"things seen only once, where others are seen often, left out: {outliers}")
+    labels = sorted(groups)
+    landmarks = _landmarks(graph, groups, labels, dynamic, similarity)
+    row = {label: n for n, label in enumerate(labels)}
+    of = {run.name: np.full(run.rows, -1, np.int64) for run in runs}
+    for label, pieces in groups.items():
+        for piece in pieces:
+            rows = [seen.row for seen in piece.track.sightings]
+            of[graph.members[piece.member].name][rows] = row[label]
+    for number, seen, label in graph.parts:
+        of[graph.members[number].name][seen.row] = row.get(label, -1)
+    return SlamMap(
+        {member.name: Trajectory(member.time, member.poses) for member in graph.members},
+        landmarks,
+        of,
+        tuple(doubts),
+        tuple(notes),
+    )
+
+
+def _without_outliers(groups: dict[int, list[Piece]]) -> tuple[dict[int, list[Piece]], int]:
+    """Without things seen only once, where that is not how things are seen; and how many."""
+    count = {
+        label: sum(len(piece.track.sightings) for piece in pieces)
+        for label, pieces in groups.items()
+    }
+    if not count:
+        return groups, 0
+    per_sighting = np.repeat(list(count.values()), list(count.values()))
+    if np.median(per_sighting) < OFTEN:
+        return groups, 0
+    kept = {
+        label: pieces for label, pieces in groups.items() if count[label] > 1 or pieces[0].track.key
+    }
+    return kept, len(groups) - len(kept)
+
+
+def _landmarks(
+    graph: JointGraph,
+    groups: dict[int, list[Piece]],
+    labels: list[int],
+    dynamic: NDArray[np.bool_],
+    similarity: Floats,
+) -> MappedLandmarks:
+    beliefs = ClassBeliefs(similarity)
+    told = np.array([sum(p.track.evidence for p in groups[label]) for label in labels])
+    told = told.reshape(len(labels), beliefs.size)
+    shares = beliefs.posterior(told) if len(labels) else told
+    feature = shares.argmax(1) if len(labels) else np.zeros(0, np.int64)
+    missing = np.full((2, 2), np.nan)
+    keys = [next((p.track.key for p in groups[n] if p.track.key), "") for n in labels]
+    return MappedLandmarks(
+        np.array([f"L{n + 1}" for n in range(len(labels))], object),
+        np.array([graph.xy[n] for n in labels]).reshape(-1, 2),
+        np.array([graph.covariance.get(n, missing) for n in labels]).reshape(-1, 2, 2),
+        feature.astype(np.int64),
+        shares.max(1) if len(labels) else np.zeros(0),
+        np.array([sum(len(p.track.sightings) for p in groups[n]) for n in labels], np.int64),
+        dynamic[feature],
+        np.array(keys, object),
+    )

@@ -1,0 +1,141 @@
+"""Run: what the control agent knows of one run of one robot, and that run's own map."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symboslam.engine.slam.beliefs import ClassBeliefs
+from symboslam.engine.slam.edge_map import EdgeMap
+from symboslam.engine.slam.increment import EdgeIncrement
+from symboslam.engine.slam.joint import Member, Piece
+from symboslam.engine.slam.log import ROBOT, Closures, Floats, Pose
+from symboslam.engine.slam.pose_graph import Fix, PoseGraph, Sighting
+from symboslam.engine.slam.settings import SlamSettings
+
+
+class Run:
+    """One run of one robot.
+
+    Args:
+        name: of the robot, made different if two have the same.
+        classes: names of the classes.
+        dynamic: (C,) which of them move.
+        similarity: (C, C) how alike they are.
+        settings: of map building.
+
+    Attributes:
+        graph: its pose graph, as far as it has come without a gap.
+        start: where it began; None if not known.
+        finished: nothing more comes.
+        unknown: names of classes that are not known -> sightings left out.
+        closures: relative poses from outside, if any.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        classes: tuple[str, ...],
+        dynamic: NDArray[np.bool_],
+        similarity: Floats,
+        settings: SlamSettings,
+    ) -> None:
+        self.name, self.settings = name, settings
+        self.graph = PoseGraph(name)
+        self.start: Pose | None = None
+        self.start_sigma: Pose = (0.01, 0.01, 0.01)
+        self.finished = False
+        self.unknown: Counter[str] = Counter()
+        self.closures: Closures | None = None
+        self.rows = 0
+        self._classes = {label: n for n, label in enumerate(classes)}
+        self._dynamic, self._similarity = dynamic, similarity
+        self._waiting: dict[int, EdgeIncrement] = {}
+        self._next = 0
+        self._map: EdgeMap | None = None
+
+    @property
+    def missing(self) -> list[int]:
+        """Numbers of increments that have not come, though later ones have."""
+        if not self._waiting:
+            return []
+        return [n for n in range(self._next, max(self._waiting)) if n not in self._waiting]
+
+    def add(self, increment: EdgeIncrement) -> bool:
+        """Take over an increment, in any order; False if it is not new."""
+        if increment.sequence < self._next or increment.sequence in self._waiting:
+            return False
+        self._waiting[increment.sequence] = increment
+        while self._next in self._waiting:
+            self._append(self._waiting.pop(self._next))
+            self._next += 1
+        return True
+
+    def _append(self, increment: EdgeIncrement) -> None:
+        if increment.sequence == 0:
+            self.start, self.start_sigma = increment.start, increment.start_sigma
+        for time, step, sigma in zip(
+            increment.time.tolist(), increment.step, increment.sigma, strict=True
+        ):
+            self.graph.add(time, np.asarray(step), np.asarray(sigma))
+        for n in range(len(increment.row)):
+            seen = self._sighting(increment, n)
+            if seen is not None:
+                self.graph.sightings.append(seen)
+        for pose, (x, y, sigma) in zip(
+            increment.fix_pose.tolist(), increment.fix.tolist(), strict=True
+        ):
+            self.graph.fixes.append(Fix(pose, x, y, sigma))
+        self.finished = self.finished or increment.last
+
+    def _sighting(self, increment: EdgeIncrement, n: int) -> Sighting | None:
+        label = str(increment.feature[n])
+        if label and label not in self._classes:
+            self.unknown[label] += 1
+            return None
+        pose = int(increment.pose[n])
+        self.rows = max(self.rows, int(increment.row[n]) + 1)
+        return Sighting(
+            int(increment.row[n]),
+            float(increment.seen[n]),
+            pose,
+            float(increment.range[n]),
+            float(increment.bearing[n]),
+            float(increment.sigma_range[n]),
+            float(increment.sigma_bearing[n]),
+            self._classes[label] if label else ROBOT,
+            float(increment.confidence[n]),
+            str(increment.key[n]),
+        )
+
+    def edge_map(self, last: bool = False) -> EdgeMap | None:
+        """The run's own map, up to date; None as long as there are no poses."""
+        if not len(self.graph):
+            return None
+        if self._map is None:
+            self._map = EdgeMap(
+                self.graph,
+                ClassBeliefs(self._similarity),
+                self._dynamic,
+                self.start or (0.0, 0.0, 0.0),
+                self.start_sigma if self.start else (0.01, 0.01, 0.001),
+                self.settings,
+            )
+        self._map.follow(last)
+        return self._map
+
+    def member(self, edge: EdgeMap, number: int, labels: dict[tuple[int, int], int]) -> Member:
+        """The run as part of a joint graph; labels are numbered on in ``labels``."""
+        pieces = [
+            Piece(
+                number,
+                track,
+                labels.setdefault((number, edge.landmark_of[track.number]), len(labels)),
+            )
+            for track in edge.tracker.tracks
+            if track.number in edge.landmark_of
+        ]
+        sigma = self.start_sigma if self.start else None
+        return Member(self.name, self.graph, edge.poses(), sigma, pieces, self.closures)
