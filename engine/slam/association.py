@@ -17,6 +17,8 @@ WINDOW = 1.4
 """A window of tracks is this many times as wide as tracks wait for (``hold``)."""
 FITS = 9.0
 """Squared distance in standard deviations up to which a track is of a landmark."""
+FAR = 0.3
+"""Merged landmarks farther apart than this share of the spacing pull the map far."""
 STRANGE = 25.0
 """The same, beyond which it is not."""
 
@@ -54,13 +56,8 @@ class Association:
         a, b = self.times[one], self.times[other]
         return len(a & b) > 0.05 * min(len(a), len(b))
 
-    def tidy(self) -> int:
-        """Give tracks to the landmarks they fit, split off others, merge what is one; how many."""
-        changed = self._move()
-        self._take_stock()
-        return changed + self._merge_near()
-
-    def _move(self) -> int:
+    def move(self) -> int:
+        """Give tracks to the landmarks that they fit, split off those that fit none; how many."""
         graph = self.graph
         self._take_stock()
         floor = (graph.settings.floor * self.scale.sigma) ** 2
@@ -92,7 +89,9 @@ class Association:
         piece.label = label
         return 1
 
-    def _merge_near(self) -> int:
+    def merge_near(self) -> int:
+        """Merge landmarks that lie within their covariances; how many."""
+        self._take_stock()
         graph = self.graph
         known = [label for label in self.labels if label in graph.covariance]
         if len(known) < 2:
@@ -148,8 +147,12 @@ class Association:
         ]
         return bool(names[0] and names[1] and not names[0] & names[1])
 
-    def constellations(self) -> int:
-        """Merge landmarks whose constellations agree; how many."""
+    def constellations(self) -> tuple[int, bool]:
+        """Merge landmarks whose constellations agree.
+
+        Returns:
+            How many, and whether some of them were far apart.
+        """
         self._take_stock()
         graph, found = self.graph, []
         spread = float(
@@ -158,7 +161,12 @@ class Association:
         for number in range(len(graph.members)):
             for window in self.windows(number):
                 found += self._match(number, window, spread)
-        return self._merge(found)
+        apart = [
+            float(np.hypot(*(graph.xy[one] - graph.xy[other])))
+            for _, pairs in found
+            for one, other in pairs
+        ]
+        return self._merge(found), max(apart, default=0.0) > FAR * graph.spacing
 
     def windows(self, number: int) -> list[list[Piece]]:
         """The tracks of a robot, some at a time, while its odometry is good; they overlap."""

@@ -14,6 +14,8 @@ MISFITS = 0.15
 """Share of a robot's sightings beyond four standard deviations, from which it is doubted."""
 UNMET = 0.5
 """Share of robots seen that are where no robot is, from which a robot is doubted."""
+LOST = 0.15
+"""Share of a robot's sightings that are of nothing seen again, from which it is doubted."""
 WINDOW = 30
 """Steps over which odometry is compared with the map."""
 BENT = 12.0
@@ -35,6 +37,12 @@ def doubts(graph: JointGraph, edges: list[EdgeMap]) -> list[str]:
         if edge.trouble:
             said.append(f"{member.name}: its own map could not be kept up to date: {edge.trouble}")
         share, total = fits[number]
+        once, seen = edge.outliers, sum(s.whole for s in member.graph.sightings)
+        if seen >= 20 and once > LOST * seen:
+            said.append(
+                f"{member.name}: {once / seen:.0%} of {seen} sightings are of nothing that was "
+                f"seen again (more than {LOST:.0%})"
+            )
         if total >= 20 and share > MISFITS:
             said.append(
                 f"{member.name}: {share:.0%} of {total} sightings do not fit the map "

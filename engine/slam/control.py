@@ -112,7 +112,14 @@ class CollectiveMap:
         said = doubts(graph, [edges[n] for n in placed]) if graph.members else []
         for n in lost:
             said.append(f"{runs[n].name} could not be placed: it does not know where it began")
-        return outcome(graph, runs, edges, placed, self._dynamic, self._similarity, said, self.notes)
+        notes = self.notes
+        for run, edge in zip(runs, edges, strict=True):
+            if edge.outliers:
+                notes.append(
+                    f"{run.name}: things seen only once, where others are seen often, left out: "
+                    f"{edge.outliers}"
+                )
+        return outcome(graph, runs, edges, placed, self._dynamic, self._similarity, said, notes)
 
     def _run(self, robot: str, run: str) -> Run:
         found = self._runs.get((robot, run))
@@ -181,8 +188,11 @@ class CollectiveMap:
                 break
             graph.marginals()
             association = Association(graph, beliefs, scale)
-            far = association.constellations() > 0
-            if not far and not association.tidy():
+            changed = association.merge_near()
+            merged, far = association.constellations()
+            if not merged:
+                changed += association.move()
+            if changed + merged <= turn // 4:
                 break
         return graph
 

@@ -154,6 +154,13 @@ class EdgeMap:
         except RuntimeError as error:
             self.trouble = str(error).strip().split("\n", 1)[0]
 
+    @property
+    def outliers(self) -> int:
+        """Things that were seen only once and are left out."""
+        return sum(
+            not track.live and track.number not in self.landmark_of for track in self.tracker.tracks
+        )
+
     def poses(self) -> Floats:
         """(n, 3) key poses as estimated, those since the last update by odometry."""
         values = self._isam.calculateEstimate()
@@ -245,6 +252,8 @@ class EdgeMap:
         """Find waiting tracks in the map; those that waited long enough become new landmarks."""
         settings, graph = self.settings, self.graph
         waiting = [t for t in self._open if t.number not in self.landmark_of]
+        if self.tracker.often:
+            waiting = [t for t in waiting if t.live or len(t.sightings) > 1]
         ready = [t for t in waiting if len(t.sightings) > 1 or not t.live or last]
         frame = self._frame(number)
         if ready and self._frames:

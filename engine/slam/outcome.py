@@ -12,10 +12,6 @@ from symboslam.engine.slam.log import Floats
 from symboslam.engine.slam.run import Run
 from symboslam.engine.slam.slam_map import MappedLandmarks, SlamMap, Trajectory
 
-OFTEN = 4
-"""Where half of all sightings are of things seen so often, one seen once is an outlier."""
-
-
 def outcome(
     graph: JointGraph,
     runs: list[Run],
@@ -48,10 +44,6 @@ def outcome(
             graph.xy[next_label] = piece.where(graph.members[number].poses)[0]
             groups[next_label] = [piece]
             next_label += 1
-    notes = list(notes)
-    groups, outliers = _without_outliers(groups)
-    if outliers:
-        notes.append(f"things seen only once, where others are seen often, left out: {outliers}")
     labels = sorted(groups)
     landmarks = _landmarks(graph, groups, labels, dynamic, similarity)
     row = {label: n for n, label in enumerate(labels)}
@@ -69,23 +61,6 @@ def outcome(
         tuple(doubts),
         tuple(notes),
     )
-
-
-def _without_outliers(groups: dict[int, list[Piece]]) -> tuple[dict[int, list[Piece]], int]:
-    """Without things seen only once, where that is not how things are seen; and how many."""
-    count = {
-        label: sum(len(piece.track.sightings) for piece in pieces)
-        for label, pieces in groups.items()
-    }
-    if not count:
-        return groups, 0
-    per_sighting = np.repeat(list(count.values()), list(count.values()))
-    if np.median(per_sighting) < OFTEN:
-        return groups, 0
-    kept = {
-        label: pieces for label, pieces in groups.items() if count[label] > 1 or pieces[0].track.key
-    }
-    return kept, len(groups) - len(kept)
 
 
 def _landmarks(

@@ -80,7 +80,7 @@ def _by_class(
     mine._take_stock()
     theirs._take_stock()
     there = Things(theirs.xy, theirs.told)
-    best: tuple[float, Floats] | None = None
+    found = []
     for window in mine.windows(0):
         labels = list(dict.fromkeys(piece.label for piece in window))
         if len(labels) < LEAST:
@@ -89,22 +89,40 @@ def _by_class(
         alike = beliefs.alike(here.evidence, there.evidence)
         anywhere = Placing(np.full(len(labels), np.inf), math.pi)
         tolerance = mine.tolerance(0, window, labels)
-        found = match(here, there, alike, anywhere, tolerance, graph.spacing)
-        for each in found[:1]:
-            sure = each.odds > graph.settings.certainty + SURE
-            if len(each.here) < LEAST or not sure or each.margin < graph.settings.rival:
-                continue
-            if best is None or each.odds > best[0]:
+        for each in match(here, there, alike, anywhere, tolerance, graph.spacing)[:1]:
+            sure = each.odds > graph.settings.certainty and each.margin > graph.settings.rival
+            if sure and len(each.here) >= LEAST:
                 move = rigid(here.xy[each.here], there.xy[each.there])
                 middle = window[len(window) // 2].track.last
-                poses = compose(move, member.poses)
-                best = each.odds, _about(poses, poses, middle)
+                found.append((each.odds, middle, compose(move, member.poses[middle])))
+    return _agreed(found, member, graph.settings.certainty + SURE)
+
+
+def _agreed(
+    found: list[tuple[float, int, Floats]], member: Member, least: float
+) -> tuple[float, Floats] | None:
+    """Log odds and (n, 3) poses by the place that most windows agree on.
+
+    Args:
+        found: log odds, number of a key pose, and where it is on the map.
+        member: the robot.
+        least: log odds that are needed; twice as many if a window stands alone.
+    """
+    best: tuple[float, Floats] | None = None
+    for _, number, pose in found:
+        path = compose(pose, between(member.poses[number], member.poses))
+        odds, windows = 0.0, 0
+        for each, other, there in found:
+            off = between(path[other], there)
+            spread = 2 * member.graph.drift(number, other) + 1e-6
+            way = member.graph.way(number, other) + 1e-6
+            turn = 4 * math.sqrt(spread) / max(way, 1.0) + 0.2
+            if off[0] ** 2 + off[1] ** 2 < 16 * spread + 1 and abs(off[2]) < turn:
+                odds, windows = odds + each, windows + 1
+        need = least if windows > 1 else 2 * least
+        if odds > need and (best is None or odds > best[0]):
+            best = odds, path
     return best
-
-
-def _about(poses: Floats, path: Floats, middle: int) -> Floats:
-    """A path that is right at one key pose."""
-    return compose(poses[middle], between(path[middle], path))
 
 
 def resection(landmarks: Floats, bearing: Floats, reach: Floats | None = None) -> Floats:

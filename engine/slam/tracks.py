@@ -11,6 +11,8 @@ from symboslam.engine.slam.beliefs import ClassBeliefs
 from symboslam.engine.slam.log import Floats
 from symboslam.engine.slam.pose_graph import PoseGraph, Sighting
 
+OFTEN = 4
+"""A thing seen so many times is seen often."""
 NEW = 0.2
 """Share of things in view that are seen for the first time."""
 
@@ -64,6 +66,12 @@ class Tracker:
         self.tracks: list[Track] = []
         self.live: list[Track] = []
         self._moment, self._taken = -math.inf, set[int]()
+        self._seen = self._seen_often = 0
+
+    @property
+    def often(self) -> bool:
+        """Whether most sightings are of things seen again and again."""
+        return self._seen > 100 and 2 * self._seen_often > self._seen
 
     def follow(self, sighting: Sighting, spacing: float, limit: float) -> Track:
         """The track of a sighting that has range and bearing.
@@ -114,5 +122,8 @@ class Tracker:
         found.key = found.key or sighting.key
         found.sightings.append(sighting)
         sighting.track = found.number
+        times = len(found.sightings)
+        self._seen += 1
+        self._seen_often += OFTEN if times == OFTEN else int(times > OFTEN)
         self._taken.add(found.number)
         return found
