@@ -95,7 +95,7 @@ def _path(log: RobotLog, every: float) -> Trajectory:
     kept = np.arange(len(odometry))
     if every > 0:
         bins = np.floor((odometry.time - odometry.time[0]) / every)
-        kept = np.unique(np.unique(bins, return_index=True)[1].tolist() + [len(odometry) - 1])
+        kept = np.unique([*np.unique(bins, return_index=True)[1].tolist(), len(odometry) - 1])
     return Trajectory(odometry.time[kept], compose(_offset(log), odometry.pose[kept]))
 
 

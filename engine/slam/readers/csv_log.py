@@ -91,7 +91,8 @@ def read(
     starts: dict[str, Pose] = {}
     if "starts" in files:
         starts = _starts(read_columns(files["starts"], STARTS, notes), robots, notes)
-    nothing = Measurements(*np.zeros((3, 0)), np.zeros(0, np.int64), np.zeros(0), np.zeros(0, "O"))
+    none = np.zeros(0)
+    nothing = Measurements(none, none, none, np.zeros(0, np.int64), none, np.zeros(0, object))
     notes += classes.notes
     return Mission(
         tuple(
@@ -125,8 +126,8 @@ def _files(path: Path | Sequence[Path]) -> dict[str, Path]:
     else:
         for file in path:
             stem = file.name.lower()
-            role = next((r for r in names if r in stem), "fixes" if "gps" in stem else None)
-            if role is None or role in found:
+            role = next((r for r in names if r in stem), "fixes" if "gps" in stem else "")
+            if not role or role in found:
                 raise InputError(f"{file}: the name must hold one of {', '.join(names)}, each once")
             found[role] = file
     if "odometry" not in found:
@@ -192,9 +193,8 @@ def _odometry(table: Columns, notes: list[str]) -> dict[str, Odometry]:
             else [rows.floats("v"), rows.floats("omega")]
         )
         values = np.column_stack([rows.times(notes), *columns])
-        values = values[
-            _left_out(rows, ~np.isfinite(values).all(1), "with NaN or empty cells", notes)
-        ]
+        bad = np.any(~np.isfinite(values), axis=1, keepdims=True)[:, 0]
+        values = values[_left_out(rows, bad, "with NaN or empty cells", notes)]
         label = f"{table.path.name}, {name}"
         values = values[in_order(values[:, 0], label, notes)]
         values = values[one_a_time(values[:, 0], label, notes)]
@@ -229,7 +229,7 @@ def _detections(
     if bad.any():
         raise table.wrong(int(np.argmax(bad)), "confidence", "not in (0, 1]")
     good = _left_out(table, ~np.isfinite(time), "without a time", notes)
-    early = good & (time < odometry.time[0])
+    early: NDArray[np.bool_] = good & (time < odometry.time[0])
     good &= _left_out(table, early, "from before the first odometry", notes)
     negative = good & ((reach < 0) | np.isinf(reach) | np.isinf(bearing))
     good &= _left_out(table, negative, "with a range below 0 or infinity", notes)
@@ -262,7 +262,7 @@ def _fixes(table: Columns, notes: list[str]) -> Fixes:
         raise InputError(f"{table.path}: header: columns x and y, in metres, are needed")
     sigma = table.floats("sigma", empty=SIGMA_FIX)
     values = np.column_stack([table.times(notes), table.floats("x"), table.floats("y"), sigma])
-    bad = ~(np.isfinite(values).all(1) & (sigma > 0))
+    bad: NDArray[np.bool_] = ~(np.isfinite(values).all(1) & (sigma > 0))
     values = values[_left_out(table, bad, "with NaN, empty cells or no sigma above 0", notes)]
     values = values[in_order(values[:, 0], table.path.name, notes)]
     return Fixes(values[:, 0], values[:, 1:3], values[:, 3])

@@ -15,7 +15,7 @@ from symboslam.engine.slam.log import Floats, Mission
 from symboslam.engine.slam.readers.information import covariance_of, polar, symmetric
 from symboslam.engine.slam.readers.pose_graph import Edge, PoseGraph, Sighting
 from symboslam.engine.slam.readers.pose_graph_log import estimate_of, mission_of
-from symboslam.engine.slam.readers.spatial import heading_of, planar_step
+from symboslam.engine.slam.readers.spatial import planar_step
 from symboslam.engine.slam.readers.tagged import Fields, parse
 from symboslam.engine.slam.slam_map import SlamMap
 from symboslam.errors import InputError
@@ -55,8 +55,7 @@ def _vertex_xy(graph: PoseGraph, f: Fields) -> None:
 
 def _vertex_se3(graph: PoseGraph, f: Fields) -> None:
     number, x, y, _, *quaternion = f.ids(1, 7)
-    heading, tilt = heading_of(quaternion, f.where)
-    planar_step((0, 0, 0, *quaternion), f.where)
+    _, _, heading = planar_step((0, 0, 0, *quaternion), f.where)
     graph.poses[f.new(number, graph.poses)] = (x, y, heading)
 
 

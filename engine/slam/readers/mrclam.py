@@ -80,7 +80,9 @@ def read(folder: Path, classes: int | None = None, start: str = "all") -> tuple[
     else:
         names = tuple(f"class {i}" for i in range(classes))
         feature_of = {s: s % classes for s in subjects}
-    logs, paths, identity = [], {}, {}
+    logs: list[RobotLog] = []
+    paths: dict[str, Floats] = {}
+    identity: dict[str, NDArray[np.object_]] = {}
     for n in _robots(folder):
         name = f"Robot {n}"
         odometry = _odometry(folder, n, notes)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass, field
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -109,7 +110,7 @@ def chains_of(graph: PoseGraph) -> tuple[list[Chain], list[Edge]]:
     """
     used = {i for edge in graph.edges for i in (edge.start, edge.end)}
     ids = sorted(used | set(graph.poses) | {seen.pose for seen in graph.sightings})
-    after = dict(zip(ids, ids[1:], strict=False))
+    after = dict(pairwise(ids))
     steps: dict[int, Edge] = {}
     others = []
     for edge in graph.edges:

@@ -18,6 +18,7 @@ from symboslam.cli import (
     query,
     serve,
     show,
+    slam,
     store,
     token,
     validate,
@@ -51,6 +52,7 @@ app.add_typer(ontology.app, name="ontology")
 app.add_typer(cq.app, name="cq")
 app.add_typer(token.app, name="token")
 app.add_typer(store.app, name="store")
+app.add_typer(slam.app, name="slam")
 
 
 def _version(wanted: bool) -> None:
