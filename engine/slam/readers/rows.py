@@ -24,8 +24,8 @@ def in_order(time: Floats, name: str, notes: list[str]) -> Ints:
 
 
 def without_repeats(rows: Floats, name: str, notes: list[str]) -> Ints:
-    """(k,) rows but for those that are equal to an earlier one in all (NaN is equal to NaN)."""
-    _, first = np.unique(rows, axis=0, return_index=True, equal_nan=True)
+    """(k,) finite rows but for those that are equal to an earlier one in all columns."""
+    _, first = np.unique(rows, axis=0, return_index=True)
     kept = np.sort(first)
     if len(kept) < len(rows):
         notes.append(f"{name}: {count(len(rows) - len(kept), 'repeated row')} left out")

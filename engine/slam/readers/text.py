@@ -177,6 +177,8 @@ def _check(line: Line, columns: Sequence[str], path: Path) -> None:
 
 def _floats(rows: list[list[str]], at: list[int], columns: Sequence[str], path: Path) -> Floats:
     try:
+        if any("_" in word for words in rows for word in words):  # NumPy reads 1_0 as 10
+            raise ValueError
         return np.array(rows, np.float64).reshape(-1, len(columns))
     except ValueError:
         for words, line in zip(rows, at, strict=True):

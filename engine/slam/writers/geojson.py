@@ -91,7 +91,10 @@ def _surveyed(output: Output, frame: Frame) -> dict[str, Any] | None:
     if not lines:
         return None
     swept = shapely.union_all([line.simplify(reach / 100).buffer(reach, 4) for line in lines])
-    placed = shapely.transform(swept, lambda xy: np.column_stack(frame.from_metres(*xy.T)))
+    digits = 7 if frame.geographic else 2  # 1 cm
+    placed = shapely.transform(
+        swept, lambda xy: np.round(np.column_stack(frame.from_metres(*xy.T)), digits)
+    )
     spots = np.column_stack(frame.from_metres(*output.slam_map.landmarks.xy.T))
     corners = np.concatenate([spots, np.reshape(placed.bounds, (2, 2))])
     box = [*corners.min(0).tolist(), *corners.max(0).tolist()]
