@@ -69,6 +69,16 @@ def dead_reckoned(mission: Mission, every: float = 0.0) -> SlamMap:
             seen.setdefault(str(thing[i]), []).append(row)
     order = {name: i for i, name in enumerate(seen)}
     notes = ["robots are where their odometry puts them; nothing was estimated"]
+    known = {str(t) for thing in names.values() for t in thing if t}
+    if len(seen) < len(known):
+        notes.append(f"landmarks without both range and bearing left out: {len(known - set(seen))}")
+    nameless = sum(
+        int(((thing == "") & (log.seen.feature >= 0)).sum())
+        for log in mission.robots
+        for thing in [names[log.name]]
+    )
+    if nameless:
+        notes.append(f"sightings without a known landmark left out: {nameless}")
     homeless = [log.name for log in mission.robots if log.start is None]
     if homeless:
         notes.append(f"no start is known of {', '.join(homeless)}: put at (0, 0, 0)")

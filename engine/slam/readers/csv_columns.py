@@ -123,7 +123,7 @@ def read_columns(path: Path, names: Names, notes: list[str]) -> Columns:
             continue
         if len(row) != len(header):
             raise InputError(
-                f"{path}: line {line}: this row has {len(row)} cells, the header has {len(header)}"
+                f"{path}: line {line}: this row has {len(row)} cells, the header {len(header)}"
             )
         if tuple(row) in seen:
             repeated += 1

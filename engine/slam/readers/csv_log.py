@@ -243,7 +243,9 @@ def _detections(
         )
     unsure = int(np.isnan(confidence[good]).sum())
     if unsure:
-        notes.append(f"{table.path.name}: {count(unsure, 'row')} with a confidence of NaN: read as 1")
+        notes.append(
+            f"{table.path.name}: {count(unsure, 'row')} with a confidence of NaN: read as 1"
+        )
     index: Ints = np.flatnonzero(good)
     index = index[in_order(time[index], table.path.name, notes)]
     feature = [classes.position_of(name) for name in table.texts("class")[index].tolist()]

@@ -3,17 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 
 import numpy as np
 
-from symboslam.engine.slam.log import Floats
+from symboslam.engine.slam.log import Floats, Ints
 
 
 def symmetric(triangle: Sequence[float], size: int) -> Floats:
     """(size, size) matrix of its upper triangle, row by row."""
-    found = np.zeros((size, size))
-    found[np.triu_indices(size)] = triangle
-    return np.asarray(found + np.triu(found, 1).T)
+    return np.asarray(np.array(triangle, float)[_places(size)])
+
+
+@cache
+def _places(size: int) -> Ints:
+    """(size, size) where in the triangle each element stands."""
+    found = np.zeros((size, size), np.int64)
+    found[np.triu_indices(size)] = np.arange(size * (size + 1) // 2)
+    return np.maximum(found, found.T)
 
 
 def toro(triangle: Sequence[float]) -> Floats:

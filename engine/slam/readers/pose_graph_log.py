@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -105,26 +107,38 @@ def estimate_of(graph: PoseGraph, mission: Mission) -> SlamMap | None:
                 before = poses[-1] if poses else np.zeros(3)
                 poses.append(compose(before, part.edges[i - 1].step) if i else before)
         paths[part.name] = Trajectory(np.arange(len(poses), dtype=float), np.array(poses))
-    marks = driven.landmarks
-    points = {name_of(number): xy for number, xy in graph.points.items()}
-    xy = np.array([points.get(str(name), tuple(marks.xy[i])) for i, name in enumerate(marks.id)])
-    unseen = [name for name in points if name not in set(marks.id.tolist())]
+    marks, lost = _placed(graph, mission, driven)
     notes = [f"poses and landmarks are the estimates of {graph.path.name}"]
     if missing:
         notes.append(f"{count(missing, 'pose')} without an estimate follow odometry")
-    if unseen:
-        notes.append(f"{count(unseen, 'landmark')} that nothing was seen of left out")
-    placed = MappedLandmarks(
-        marks.id,
-        xy.reshape(-1, 2),
-        marks.covariance,
-        marks.feature,
-        marks.confidence,
-        marks.sightings,
-        marks.dynamic,
-        marks.key,
-    )
-    return SlamMap(paths, placed, driven.landmark_of, notes=tuple(notes))
+    if lost:
+        notes.append(f"{count(lost, 'landmark')} with neither range nor estimate left out")
+    order = {str(name): i for i, name in enumerate(marks.id)}
+    landmark_of = {
+        robot: np.array([order.get(str(name), -1) for name in names], np.int64)
+        for robot, names in mission.identity.items()
+    }
+    return SlamMap(paths, marks, landmark_of, notes=tuple(notes))
+
+
+def _placed(graph: PoseGraph, mission: Mission, driven: SlamMap) -> tuple[MappedLandmarks, int]:
+    """Landmarks where the file has them, or else where odometry does; how many are nowhere."""
+    spots = dict(zip(driven.landmarks.id.tolist(), driven.landmarks.xy.tolist(), strict=True))
+    spots |= {name_of(number): list(xy) for number, xy in graph.points.items()}
+    seen = Counter(str(name) for names in mission.identity.values() for name in names)
+    names = np.array(list(spots), object)
+    shown = {str(key) for log in mission.robots for key in log.seen.key}
+    n = len(names)
+    return MappedLandmarks(
+        id=names,
+        xy=np.array(list(spots.values()), float).reshape(-1, 2),
+        covariance=np.full((n, 2, 2), np.nan),
+        feature=np.zeros(n, np.int64),
+        confidence=np.ones(n),
+        sightings=np.array([seen[name] for name in spots], np.int64),
+        dynamic=np.zeros(n, np.bool_),
+        key=np.array([name if name in shown else "" for name in spots], object),
+    ), len(seen.keys() - spots.keys())
 
 
 def _closures_of(

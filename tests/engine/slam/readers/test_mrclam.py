@@ -106,7 +106,8 @@ def test_what_is_mended(write: Write) -> None:
     mission, notes = read_mission(
         make(
             write,
-            Robot1_Odometry_dat=b"100 1 0\n\x00\x00\n102 1 0\n101 0 1.5\n101 0 1.5\n102 2 0\n109 0 0\n",
+            Robot1_Odometry_dat=b"100 1 0\n\x00\x00\n102 1 0\n101 0 1.5\n101 0 1.5\n102 2 0\n"
+            b"109 0 0\n",
             Robot1_Measurement_dat=None,
             Landmark_Groundtruth_dat=None,
             Robot2_Odometry_dat=None,
