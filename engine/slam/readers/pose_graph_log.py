@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +19,8 @@ from symboslam.engine.slam.log import (
     Pose,
     RobotLog,
 )
-from symboslam.engine.slam.odometry import chain, dead_reckoned
+from symboslam.engine.slam.dead_reckoning import dead_reckoned
+from symboslam.engine.slam.odometry import chain
 from symboslam.engine.slam.planar import compose
 from symboslam.engine.slam.readers.pose_graph import (
     Chain,
@@ -94,7 +96,7 @@ def estimate_of(graph: PoseGraph, mission: Mission) -> SlamMap | None:
     if not graph.poses:
         return None
     chains, _ = chains_of(graph)
-    driven = dead_reckoned(mission)
+    driven = dead_reckoned(_shown(mission))
     paths, missing = {}, 0
     for part in chains:
         poses: list[Floats] = []
@@ -119,6 +121,15 @@ def estimate_of(graph: PoseGraph, mission: Mission) -> SlamMap | None:
         for robot, names in mission.identity.items()
     }
     return SlamMap(paths, marks, landmark_of, notes=tuple(notes))
+
+
+def _shown(mission: Mission) -> Mission:
+    """The mission with the identities as keys."""
+    logs = [
+        replace(log, seen=replace(log.seen, key=mission.identity[log.name]))
+        for log in mission.robots
+    ]
+    return replace(mission, robots=tuple(logs))
 
 
 def _placed(graph: PoseGraph, mission: Mission, driven: SlamMap) -> tuple[MappedLandmarks, int]:

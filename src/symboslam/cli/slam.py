@@ -86,7 +86,7 @@ def convert(
     count. What was mended in the input, or has no place in the output, is printed.
     """
     from symboslam.engine.slam import readers, writers
-    from symboslam.engine.slam.odometry import dead_reckoned
+    from symboslam.engine.slam.dead_reckoning import dead_reckoned
     from symboslam.engine.writers import check_targets
 
     inputs = [source, *([ontology] if ontology else [])]

@@ -1,4 +1,4 @@
-"""Arcs, chains, poses at any time, and the map by odometry alone."""
+"""Arcs, chains, and poses at any time."""
 
 from __future__ import annotations
 
@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from symboslam.engine.slam.log import ROBOT, Measurements, Mission, Odometry, RobotLog
-from symboslam.engine.slam.odometry import arcs, chain, dead_reckoned, pose_at
+from symboslam.engine.slam.odometry import arcs, chain, pose_at
 from symboslam.engine.slam.planar import between, compose
 
 HALF = np.pi / 2
@@ -44,39 +43,3 @@ def test_pose_between_two_goes_the_short_way_round() -> None:
     assert pose_at(time, pose, 1.0)[:2] == pytest.approx([1, 2])
     assert abs(pose_at(time, pose, 1.0)[2]) == pytest.approx(np.pi)
     assert pose_at(time, pose, [-1, 5]) == pytest.approx(pose)
-
-
-def mission(start: tuple[float, float, float] | None) -> Mission:
-    """Drives 2 m ahead, turns left; sees "a" 1 m ahead twice, a thing of no name, and a robot."""
-    seen = Measurements(
-        time=np.array([0.0, 2, 2, 2]),
-        range=np.array([3.0, 1, 1, 1]),
-        bearing=np.array([0.0, -HALF, 0, 0]),
-        feature=np.array([0, 0, 1, ROBOT]),
-        confidence=np.array([0.5, 0.7, 1, 1]),
-        key=np.array(["a", "a", "", "R2"], object),
-    )
-    pose = np.array([[1.0, 1, 0], [2, 1, 0], [3, 1, HALF]])
-    log = RobotLog("R1", Odometry(np.array([0.0, 1, 2]), pose), seen, start)
-    return Mission((log,), ("Tree", "Car"), np.array([False, True]), np.eye(2))
-
-
-def test_dead_reckoning_by_hand() -> None:
-    found = dead_reckoned(mission((10.0, 0.0, HALF)))
-    path = found.trajectories["R1"].pose
-    assert path[:, :2] == pytest.approx(np.array([[10, 0], [10, 1], [10, 2]]))
-    assert np.abs(path[:, 2]) == pytest.approx(np.array([HALF, HALF, np.pi]))
-    marks = found.landmarks
-    assert marks.id.tolist() == marks.key.tolist() == ["a"]
-    assert marks.xy == pytest.approx(np.array([[10, 3]]))
-    assert (marks.sightings[0], marks.confidence[0], marks.dynamic[0]) == (2, 0.7, False)
-    assert found.landmark_of["R1"].tolist() == [0, 0, -1, -1]
-    assert found.doubts
-
-
-def test_without_a_start_it_begins_at_the_origin() -> None:
-    found = dead_reckoned(mission(None), every=1.5)
-    path = found.trajectories["R1"]
-    assert path.time.tolist() == [0, 2]
-    assert path.pose == pytest.approx(np.array([[0, 0, 0], [2, 0, HALF]]))
-    assert any("no start is known of R1" in note for note in found.notes)

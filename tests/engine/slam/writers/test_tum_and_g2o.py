@@ -12,7 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from symboslam.engine.slam.log import Measurements, Mission, Odometry, OdometryNoise, RobotLog
-from symboslam.engine.slam.odometry import chain, dead_reckoned
+from symboslam.engine.slam.dead_reckoning import dead_reckoned
+from symboslam.engine.slam.odometry import chain
 from symboslam.engine.slam.planar import between, compose
 from symboslam.engine.slam.readers import read_estimate, read_mission
 from symboslam.engine.slam.readers.tum import read_trajectory
