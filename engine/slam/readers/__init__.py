@@ -95,6 +95,8 @@ def read_mission(
         if key not in chosen.options:
             known = ", ".join(chosen.options) or "none"
             raise InputError(f"the format {name} has no option {key!r}; it has: {known}")
+    if name != "csv" and not isinstance(path, str | Path):
+        raise InputError(f"the format {name} is read from one file or folder")
     mission, notes = chosen.load()(_paths(path), **given)
     return mission, notes
 

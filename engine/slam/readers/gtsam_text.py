@@ -13,7 +13,13 @@ import numpy as np
 
 from symboslam.engine.slam.log import Floats, Mission
 from symboslam.engine.slam.readers import g2o
-from symboslam.engine.slam.readers.information import covariance_of, polar, symmetric, toro
+from symboslam.engine.slam.readers.information import (
+    covariance_of,
+    polar,
+    positive,
+    symmetric,
+    toro,
+)
 from symboslam.engine.slam.readers.pose_graph import Edge, PoseGraph, Sighting
 from symboslam.engine.slam.readers.pose_graph_log import estimate_of, mission_of
 from symboslam.engine.slam.readers.tagged import Fields, parse
@@ -45,10 +51,10 @@ def covariance_by_layout(numbers: Sequence[float], where: str) -> Floats:
     """
     a, b, c, d, e, f = numbers
     if a and d and f and b == c == e == 0:
-        return symmetric(numbers, 3)
+        return positive(symmetric(numbers, 3))
     if a and c and d and b == e == f == 0:
         return covariance_of(toro(numbers))
-    if a and d and f and np.linalg.det(symmetric(numbers, 3)) > 0:
+    if np.isfinite(positive(symmetric(numbers, 3))).all():
         return symmetric(numbers, 3)
     raise InputError(
         f"{where}: the six numbers of the uncertainty are neither a covariance row by row nor "
@@ -64,7 +70,7 @@ def _edge(graph: PoseGraph, f: Fields) -> None:
 
 def _landmark(graph: PoseGraph, f: Fields) -> None:
     pose, landmark, x, y, *triangle = f.ids(2, 5)
-    found = polar(x, y, symmetric(triangle, 2))
+    found = polar(x, y, positive(symmetric(triangle, 2)))
     graph.sightings.append(Sighting(pose, landmark, *found))
 
 
@@ -72,7 +78,8 @@ def _bearing_range(graph: PoseGraph, f: Fields) -> None:
     pose, landmark, bearing, reach, sigma_bearing, sigma_range = f.ids(2, 4)
     if reach < 0:
         raise InputError(f"{f.where}: the range is {reach:g}, below 0")
-    graph.sightings.append(Sighting(pose, landmark, reach, bearing, sigma_range, sigma_bearing))
+    sigmas = (s if s > 0 else float("nan") for s in (sigma_range, sigma_bearing))
+    graph.sightings.append(Sighting(pose, landmark, reach, bearing, *sigmas))
 
 
 _vertex = g2o.TAGS["VERTEX_SE2"]

@@ -38,13 +38,19 @@ def covariance_of(information: Floats) -> Floats:
         return np.full(information.shape, np.nan)
 
 
+def positive(covariance: Floats) -> Floats:
+    """The matrix itself, or NaN if it is no positive one."""
+    known = np.isfinite(covariance_of(covariance)).all()
+    return covariance if known else np.full(covariance.shape, np.nan)
+
+
 def polar(x: float, y: float, covariance: Floats) -> tuple[float, float, float, float]:
     """A point as range and bearing, with their standard deviations to the first order.
 
     Args:
         x: metres ahead.
         y: metres to the left.
-        covariance: (2, 2) of both.
+        covariance: (2, 2) of both; NaN where not known.
     """
     reach = float(np.hypot(x, y))
     if reach == 0:

@@ -90,7 +90,8 @@ def read(folder: Path, classes: int | None = None, start: str = "all") -> tuple[
             continue
         truth = _truth(folder, n, notes)
         known = start == "all" or (start == "first" and not logs)
-        seen, identity[name] = _seen(folder, n, subject_of, feature_of, hidden, notes)
+        begun = float(odometry.time[0])
+        seen, identity[name] = _seen(folder, n, subject_of, feature_of, hidden, begun, notes)
         if truth is not None:
             paths[name] = truth
             early = odometry.time[-1] - truth[-1, 0]
@@ -121,7 +122,10 @@ def _barcodes(folder: Path, notes: list[str]) -> dict[int, int]:
         raise InputError(f"{folder}: there is no Barcodes.dat")
     table = read_table(path, ("subject", "barcode"), notes)
     found: dict[int, int] = {}
-    for (subject, barcode), line in zip(table.values.astype(int).tolist(), table.line, strict=True):
+    for row, line in zip(table.values.tolist(), table.line.tolist(), strict=True):
+        subject, barcode = map(int, row)
+        if [subject, barcode] != row:
+            raise InputError(f"{path}: line {line}: subject and barcode must be whole numbers")
         if found.setdefault(barcode, subject) != subject:
             raise InputError(f"{path}: line {line}: barcode {barcode} is of two subjects")
     return found
@@ -204,6 +208,7 @@ def _seen(
     subject_of: dict[int, int],
     feature_of: dict[int, int],
     hidden: bool,
+    begun: float,
     notes: list[str],
 ) -> tuple[Measurements, NDArray[np.object_]]:
     """What a robot saw, and what each row is of."""
@@ -214,16 +219,18 @@ def _seen(
         table = Table(np.zeros((0, 4)), np.zeros(0, np.int64))
     values = table.values
     subject: Ints = np.array([subject_of.get(int(b), 0) for b in values[:, 1]], np.int64)
+    known = (subject != 0) & (subject != n)
     for wrong, what in (
         (subject == 0, "with a barcode that nobody has"),
         (subject == n, "of the robot itself"),
-        ((values[:, 2] < 0) & (subject != 0) & (subject != n), "with a range below 0"),
+        (known & (values[:, 2] < 0), "with a range below 0"),
+        (known & (values[:, 0] < begun), "from before the first odometry"),
     ):
         if wrong.any():
             lines = f"the first in line {table.line[wrong].min()}"
             rows = count(int(wrong.sum()), "measurement")
             notes.append(f"{file}: {rows} {what} left out, {lines}")
-    good = (subject > 0) & (subject != n) & (values[:, 2] >= 0)
+    good = known & (values[:, 2] >= 0) & (values[:, 0] >= begun)
     values, subject = values[good], subject[good]
     names = [f"Robot {s}" if s <= ROBOTS else str(s) for s in subject.tolist()]
     identity = np.array(names, object)

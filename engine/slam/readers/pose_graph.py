@@ -98,8 +98,9 @@ def name_of(number: int) -> str:
     >>> name_of(7), name_of((ord("l") << 56) + 7)
     ('7', 'l7')
     """
-    letter = chr(number >> _SYMBOL) if number > 0 else ""
-    return f"{letter}{number & ((1 << _SYMBOL) - 1)}" if letter.isalpha() else str(number)
+    letter, index = divmod(number, 1 << _SYMBOL)
+    known = letter < 128 and chr(letter).isalpha()
+    return f"{chr(letter)}{index}" if known else str(number)
 
 
 def chains_of(graph: PoseGraph) -> tuple[list[Chain], list[Edge]]:

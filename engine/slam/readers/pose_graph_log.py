@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from symboslam.engine.slam.dead_reckoning import dead_reckoned
 from symboslam.engine.slam.log import (
     Closures,
     Fixes,
@@ -19,7 +20,6 @@ from symboslam.engine.slam.log import (
     Pose,
     RobotLog,
 )
-from symboslam.engine.slam.dead_reckoning import dead_reckoned
 from symboslam.engine.slam.odometry import chain
 from symboslam.engine.slam.planar import compose
 from symboslam.engine.slam.readers.pose_graph import (

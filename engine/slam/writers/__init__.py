@@ -8,6 +8,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from symboslam.engine.slam.log import Mission
 from symboslam.engine.slam.slam_map import SlamMap
 from symboslam.engine.slam.writers.output import Output, Written
@@ -87,4 +89,19 @@ def write_slam_map(
         if key not in FORMATS[name].options:
             known = ", ".join(FORMATS[name].options) or "none"
             raise OutputError(f"the format {name} has no option {key!r}; it has: {known}")
+    _check(Path(path), slam_map)
     return Format.load(name)(Output(Path(path), slam_map, mission, **given))
+
+
+def _check(path: Path, slam_map: SlamMap) -> None:
+    """Refuse maps with places that are none.
+
+    Raises:
+        OutputError: a pose or a landmark is NaN or infinite.
+    """
+    for name, trajectory in slam_map.trajectories.items():
+        if not (np.isfinite(trajectory.pose).all() and np.isfinite(trajectory.time).all()):
+            raise OutputError(f"{path}: a pose of {name} is NaN or infinite")
+    bad = ~np.isfinite(slam_map.landmarks.xy).all(1)
+    if bad.any():
+        raise OutputError(f"{path}: landmark {slam_map.landmarks.id[bad][0]} lies nowhere (NaN)")

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from symboslam.engine.slam.log import Floats
+from symboslam.engine.slam.readers.information import covariance_of
 from symboslam.engine.slam.writers.output import Output, Written, write_files
 from symboslam.engine.slam.writers.robot_graph import SMALLEST, RobotGraph, graphs_of
 
@@ -26,9 +27,22 @@ def write(output: Output) -> Written:
     )  # fmt: skip
     write_files([(output.path, _lines(output, graphs))])
     notes = ["g2o has no times, classes or confidences; what is what is in its comments"]
+    lost = sum(_unusable(graph) for graph in graphs)
+    if lost:
+        notes.append(f"closures of no way, or without a usable covariance, left out: {lost}")
     if blind:
         notes.append(f"g2o has no edge for a range alone: {blind} sightings are not in the file")
     return Written((output.path,), tuple(notes))
+
+
+def _unusable(graph: RobotGraph) -> int:
+    """How many closures lead nowhere or have a covariance without an inverse."""
+    if graph.log.closures is None:
+        return 0
+    still = graph.closed[:, 0] == graph.closed[:, 1]
+    matrices = [covariance_of(matrix) for matrix in graph.log.closures.covariance]
+    bad = np.array([not np.isfinite(matrix).all() for matrix in matrices])
+    return int((still | bad).sum())
 
 
 def _lines(output: Output, graphs: list[RobotGraph]) -> Iterator[str]:
@@ -55,9 +69,9 @@ def _edges(graph: RobotGraph, first: int, landmarks: int) -> Iterator[str]:
         yield _edge_se2(i, i + 1, step, np.diag(sigma**-2.0))
     if log.closures is not None:
         pairs = (graph.closed + first).tolist()
-        matrices = np.linalg.inv(log.closures.covariance)
+        matrices = map(covariance_of, log.closures.covariance)
         for (start, end), step, matrix in zip(pairs, log.closures.step, matrices, strict=True):
-            if start != end:
+            if start != end and np.isfinite(matrix).all():
                 yield _edge_se2(start, end, step, matrix)
     if log.fixes is not None:
         rows = zip((graph.fixed + first).tolist(), log.fixes.xy, log.fixes.sigma, strict=True)

@@ -37,7 +37,8 @@ def write(output: Output) -> Written:
 def _file(path: Path, robot: str, robots: int) -> Path:
     if robots == 1:
         return path
-    return path.with_name(f"{path.stem}-{re.sub(r'[^A-Za-z0-9.-]+', '_', robot)}{path.suffix}")
+    name = re.sub(r"[^\w.-]+", "_", robot)
+    return path.with_name(f"{path.stem}-{name}{path.suffix}")
 
 
 def _rows(path: Trajectory) -> Iterator[str]:

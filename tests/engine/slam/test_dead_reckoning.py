@@ -12,7 +12,7 @@ HALF = np.pi / 2
 
 
 def mission(start: tuple[float, float, float] | None) -> Mission:
-    """Drives 2 m ahead, turns left; sees "a" twice, a thing without a key, a robot, and a bearing."""
+    """Drives 2 m ahead, turns left; sees "a" twice, a thing without a key, a robot, a bearing."""
     seen = Measurements(
         time=np.array([0.0, 2, 2, 2, 2]),
         range=np.array([3.0, 1, 1, 1, np.nan]),

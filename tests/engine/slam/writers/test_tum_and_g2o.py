@@ -11,8 +11,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from symboslam.engine.slam.log import Measurements, Mission, Odometry, OdometryNoise, RobotLog
 from symboslam.engine.slam.dead_reckoning import dead_reckoned
+from symboslam.engine.slam.log import Measurements, Mission, Odometry, OdometryNoise, RobotLog
 from symboslam.engine.slam.odometry import chain
 from symboslam.engine.slam.planar import between, compose
 from symboslam.engine.slam.readers import read_estimate, read_mission
@@ -28,7 +28,7 @@ steps = st.lists(st.tuples(number, number, number), min_size=1, max_size=6)
 
 def test_tum_has_a_file_for_each_robot(mission: Mission, slam_map: SlamMap, tmp_path: Path) -> None:
     written = write_slam_map(tmp_path / "run.tum", slam_map, mission)
-    assert [file.name for file in written.files] == ["run-Robot_A.tum", "run-_.tum"]
+    assert [file.name for file in written.files] == ["run-Robot_A.tum", "run-é.tum"]
     assert written.notes == ("TUM has no landmarks: 3 are not in the file",)
     lines = written.files[0].read_text().splitlines()
     assert lines[0] == "# timestamp tx ty tz qx qy qz qw"
