@@ -153,8 +153,8 @@ def _table(folder: Path, file: str, columns: tuple[str, ...], notes: list[str]) 
     if path is None:
         return None
     table = read_table(path, columns, notes)
-    kept = without_repeats(table.values, path.name, notes)
-    kept = kept[in_order(table.values[kept, 0], path.name, notes)]
+    kept = without_repeats(table.values, file, notes)
+    kept = kept[in_order(table.values[kept, 0], file, notes)]
     return Table(table.values[kept], table.line[kept])
 
 

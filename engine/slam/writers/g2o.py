@@ -46,40 +46,66 @@ def _unusable(graph: RobotGraph) -> int:
 
 
 def _lines(output: Output, graphs: list[RobotGraph]) -> Iterator[str]:
+    """Vertices, edges between poses, all other edges, FIX, comments.
+
+    In this order because GTSAM's reader takes no edge behind a line that it does not know.
+    """
     marks, classes = output.slam_map.landmarks, output.mission.classes
     first = np.cumsum([0, *map(len, graphs)]).tolist()
-    for graph, number in zip(graphs, first, strict=False):
-        yield f"# {_clean(graph.log.name)}: vertices {number} to {number + len(graph) - 1}\n"
+    landmarks = first.pop()
+    for graph, number in zip(graphs, first, strict=True):
         for i, (x, y, heading) in enumerate(graph.pose.tolist(), number):
             yield f"VERTEX_SE2 {i} {x!r} {y!r} {heading!r}\n"
-    for i, (x, y) in enumerate(marks.xy.tolist()):
-        yield (
-            f"# landmark {_clean(str(marks.id[i]))}, {_clean(classes[marks.feature[i]])}\n"
-            f"VERTEX_XY {first[-1] + i} {x!r} {y!r}\n"
-        )
-    for k, (graph, number) in enumerate(zip(graphs, first, strict=False)):
-        if k == 0 or graph.log.start is not None:
+    for i, (x, y) in enumerate(marks.xy.tolist(), landmarks):
+        yield f"VERTEX_XY {i} {x!r} {y!r}\n"
+    for graph, number in zip(graphs, first, strict=True):
+        yield from _between_poses(graph, number)
+    for graph, number in zip(graphs, first, strict=True):
+        yield from _to_landmarks(graph, number, landmarks)
+    for graph, number in zip(graphs, first, strict=True):
+        yield from _priors(graph, number)
+        if number == 0 or graph.log.start is not None:
             yield f"FIX {number}\n"
-        yield from _edges(graph, number, first[-1])
+    for graph, number in zip(graphs, first, strict=True):
+        yield f"# {_clean(graph.log.name)}: vertices {number} to {number + len(graph) - 1}\n"
+    for i, (name, kind) in enumerate(zip(marks.id, marks.feature, strict=True), landmarks):
+        yield f"# vertex {i}: landmark {_clean(str(name))}, {_clean(classes[kind])}\n"
 
 
-def _edges(graph: RobotGraph, first: int, landmarks: int) -> Iterator[str]:
-    log = graph.log
+def _between_poses(graph: RobotGraph, first: int) -> Iterator[str]:
+    """Odometry and closures."""
     for i, (step, sigma) in enumerate(zip(graph.step, graph.sigma, strict=True), first):
         yield _edge_se2(i, i + 1, step, np.diag(sigma**-2.0))
-    if log.closures is not None:
-        pairs = (graph.closed + first).tolist()
-        matrices = map(covariance_of, log.closures.covariance)
-        for (start, end), step, matrix in zip(pairs, log.closures.step, matrices, strict=True):
-            if start != end and np.isfinite(matrix).all():
-                yield _edge_se2(start, end, step, matrix)
-    if log.fixes is not None:
-        rows = zip((graph.fixed + first).tolist(), log.fixes.xy, log.fixes.sigma, strict=True)
-        for i, xy, sigma in rows:
-            yield f"EDGE_PRIOR_SE2_XY {i} {_row([*xy, sigma**-2.0, 0.0, sigma**-2.0])}\n"
-    seen = log.seen.take(graph.seen)
-    ends = zip((graph.seen_from + first).tolist(), (graph.landmark + landmarks).tolist(),
-               seen.range.tolist(), seen.bearing.tolist(), strict=True)  # fmt: skip
+    closures = graph.log.closures
+    if closures is None:
+        return
+    pairs = (graph.closed + first).tolist()
+    matrices = map(covariance_of, closures.covariance)
+    for (start, end), step, matrix in zip(pairs, closures.step, matrices, strict=True):
+        if start != end and np.isfinite(matrix).all():
+            yield _edge_se2(start, end, step, matrix)
+
+
+def _priors(graph: RobotGraph, first: int) -> Iterator[str]:
+    """Positions from outside."""
+    fixes = graph.log.fixes
+    if fixes is None:
+        return
+    rows = zip((graph.fixed + first).tolist(), fixes.xy, fixes.sigma, strict=True)
+    for i, xy, sigma in rows:
+        yield f"EDGE_PRIOR_SE2_XY {i} {_row([*xy, sigma**-2.0, 0.0, sigma**-2.0])}\n"
+
+
+def _to_landmarks(graph: RobotGraph, first: int, landmarks: int) -> Iterator[str]:
+    """Sightings with a range and a bearing, or a bearing alone."""
+    seen = graph.log.seen.take(graph.seen)
+    ends = zip(
+        (graph.seen_from + first).tolist(),
+        (graph.landmark + landmarks).tolist(),
+        seen.range.tolist(),
+        seen.bearing.tolist(),
+        strict=True,
+    )
     for pose, landmark, reach, bearing in ends:
         if np.isnan(bearing):
             continue

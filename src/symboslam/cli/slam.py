@@ -22,7 +22,7 @@ CONVERT_EXAMPLES = """
 
 symboslam slam convert mrclam6 odometry.tum
 
-symboslam slam convert mrclam6 landmarks.geojson --classes 5 --every 0.5 --paths paths.geojson
+symboslam slam convert mrclam6 landmarks.geojson --paths paths.geojson
 
 symboslam slam convert victoria_park.txt.gz park.g2o
 

@@ -66,14 +66,33 @@ def test_g2o_by_hand(mission: Mission, slam_map: SlamMap, tmp_path: Path) -> Non
     assert ["FIX", "4"] not in lines
     edges = [(words[0], int(words[1]), int(words[2])) for words in lines if words[0] == "EDGE_SE2"]
     assert edges == [("EDGE_SE2", 0, 1), ("EDGE_SE2", 1, 2), ("EDGE_SE2", 2, 3), ("EDGE_SE2", 0, 3)]
-    closure = [float(w) for w in lines[-5][3:]]
+    lines = [words for words in lines if words[0] != "#"]
+    closure = [float(w) for w in lines[-6][3:]]
     assert closure == pytest.approx([2, 0.1, 1.5, 100, 0, 0, 25, 0, 4])
-    tags = [words[0] for words in lines[-4:]]
-    assert tags == ["EDGE_PRIOR_SE2_XY", "EDGE_SE2_XY", "EDGE_SE2_XY", "EDGE_BEARING_SE2_XY"]
-    first, second, third = ([float(w) for w in words[1:]] for words in lines[-3:])
+    tags = [words[0] for words in lines[-5:]]
+    assert tags[:3] == ["EDGE_SE2_XY", "EDGE_SE2_XY", "EDGE_BEARING_SE2_XY"]
+    assert tags[3:] == ["EDGE_PRIOR_SE2_XY", "FIX"]
+    first, second, third, prior = ([float(w) for w in words[1:]] for words in lines[-5:-1])
     assert first == pytest.approx([0, 5, 5, 0, 25, 0, 4])  # 1 / 0.2^2, 1 / (0.1 * 5)^2
     assert second == pytest.approx([2, 7, 0, 2, 25, 0, 25], abs=1e-9)
     assert third == pytest.approx([3, 6, 0.5, 100])
+    assert prior == [3, 3, 1, 4, 0, 4]
+
+
+def test_gtsam_reads_g2o(mission: Mission, slam_map: SlamMap, tmp_path: Path) -> None:
+    """GTSAM's reader knows poses and the edges between them: here three steps and a closure."""
+    gtsam = pytest.importorskip("gtsam", reason="it comes with symboslam[slam]")
+    path = tmp_path / "a.g2o"
+    write_slam_map(path, slam_map, mission)
+    graph, values = gtsam.readG2o(str(path), False)
+    assert graph.size() == 4
+    assert values.size() == 5 + 3
+    last = values.atPose2(3)
+    assert (last.x(), last.y(), last.theta()) == pytest.approx((3, 1, np.pi / 2))
+    # Error of the closure alone, 1/2 e' W e: the map fits odometry. e is the second pose seen from
+    # where the closure puts it: (0, -0.1) turned back by 1.5, and pi/2 - 1.5.
+    e = np.array([-0.1 * np.sin(1.5), -0.1 * np.cos(1.5), np.pi / 2 - 1.5])
+    assert graph.error(values) == pytest.approx(e @ np.diag([100, 25, 4]) @ e / 2, rel=0.01)
 
 
 def test_g2o_there_and_back(mission: Mission, slam_map: SlamMap, tmp_path: Path) -> None:
