@@ -73,6 +73,10 @@ class Link:
         self._client = httpx.Client(base_url=self.url, headers=headers, timeout=timeout)
         self._timeout, self._failure = timeout, httpx.TransportError
 
+    def close(self) -> None:
+        """Close its connections."""
+        self._client.close()
+
     def ask(self, method: str, path: str, *, seconds: float = 0.0, **given: Any) -> httpx.Response:
         """Ask once.
 

@@ -84,18 +84,28 @@ class Spool:
                 f"{self._file}: another agent of robot {robot!r} sends to this map; stop it, or"
                 " give this robot a name of its own"
             ) from error
-        with self._errors():
-            self._database = sqlite3.connect(
-                self._file, isolation_level=None, check_same_thread=False
-            )
-            self._database.execute("PRAGMA journal_mode = WAL")
-            self._database.execute("PRAGMA synchronous = FULL")  # robots lose power
-            self._database.executescript(_TABLES)
-            count, size = self._database.execute(
-                "SELECT count(*), coalesce(sum(length(content)), 0) FROM letter"
-            ).fetchone()
+        try:
+            with self._errors():
+                self._database = self._open()
+                count, size = self._database.execute(
+                    "SELECT count(*), coalesce(sum(length(content)), 0) FROM letter"
+                ).fetchone()
+        except OutputError:
+            self._guard.close()
+            raise
         self.waiting, self._bytes = int(count), int(size)
         """How many increments wait."""
+
+    def _open(self) -> sqlite3.Connection:
+        found = sqlite3.connect(self._file, isolation_level=None, check_same_thread=False)
+        try:
+            found.execute("PRAGMA journal_mode = WAL")
+            found.execute("PRAGMA synchronous = FULL")  # robots lose power
+            found.executescript(_TABLES)
+        except sqlite3.Error:
+            found.close()
+            raise
+        return found
 
     def close(self) -> None:
         """Let another agent have it."""

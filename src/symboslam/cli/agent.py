@@ -167,6 +167,7 @@ def edge(
             if waiting.waiting:
                 _tell(f"{waiting.waiting} increments wait in {spool}; the next start sends them")
             waiting.close()
+            link.close()
     if not done:
         raise ServiceError(f"{to} has not taken everything within {wait:g} seconds")
     if sender.refused:
