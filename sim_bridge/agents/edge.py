@@ -91,14 +91,18 @@ class EdgeAgent:
         index_of: position of a class by name; None for one that is not known.
         every: seconds of the log between increments.
         tell: is told what is odd.
+        give_up: whether not to wait any longer for room in the spool.
+
+    Raises:
+        SpoolFullError: (`feed`, `end`) there is no room, and `give_up` says so.
     """
 
     def __init__(
         self, mapper: Mapper, spool: Spool, index_of: Callable[[str], int | None], every: float,
-        tell: Tell,
+        tell: Tell, give_up: Callable[[], bool] = lambda: False,
     ) -> None:  # fmt: skip
         self._mapper, self._spool, self._index_of = mapper, spool, index_of
-        self._every, self._tell = every, tell
+        self._every, self._tell, self._give_up = every, tell, give_up
         self._due: float | None = None
         self._noted = 0
         self._features: dict[str, int | None] = {ROBOT_CLASS.casefold(): ROBOT}
@@ -148,6 +152,8 @@ class EdgeAgent:
             try:
                 self._spool.put(increment)
             except SpoolFullError as error:
+                if self._give_up():
+                    raise
                 if not full:
                     self._tell(f"{error}; nothing is read until the service has taken some")
                 full = True

@@ -224,9 +224,9 @@ class Spool:
                 yield self._database
                 self._database.execute("COMMIT")
             except BaseException:
-                self.waiting, self._bytes = before
                 if self._database.in_transaction:
                     self._database.rollback()
+                    self.waiting, self._bytes = before
                 raise
             self._changed.notify_all()
 

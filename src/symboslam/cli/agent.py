@@ -6,6 +6,7 @@ import math
 import signal
 import sys
 from collections.abc import Iterator
+from contextlib import contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
 from secrets import token_hex
@@ -132,10 +133,11 @@ def edge(
     elif run is None:
         how = (begin, every, sigma_range, sigma_bearing, ontology, __version__)
         run = run_of(Path(log), robot, map_, *how)
-    _end_on_sigterm()
+    stop = _Stop()
     with progress_bar(quiet or live) as progress:
         knowledge = load_knowledge(ontology, progress)
-        check_map(link, map_, _tell)
+        with stop.possible():
+            check_map(link, map_, _tell)
         waiting = Spool(spool, robot, map_, spool_limit * _MIB)
         sender = Sender(waiting, link, map_, _tell)
         sender.start()
@@ -146,11 +148,17 @@ def edge(
                     robot, classes.names, classes.dynamic, run=run, start=begin,
                     sigma_range=sigma_range, sigma_bearing=sigma_bearing,
                 )  # fmt: skip
-                agent = EdgeAgent(mapper, waiting, knowledge.index_of, every, _tell)
+                agent = EdgeAgent(
+                    mapper, waiting, knowledge.index_of, every, _tell, lambda: stop.wanted
+                )
+                source = records.read(_lines(log, progress), log, _tell)
+                paced_source = iter(paced(source, None if live else speed))
                 try:
-                    for record in paced(
-                        records.read(_lines(log, progress), log, _tell), None if live else speed
-                    ):
+                    while True:
+                        with stop.possible():
+                            record = next(paced_source, None)
+                        if record is None:
+                            break
                         agent.feed(record)
                         sender.check()
                 except KeyboardInterrupt:
@@ -161,7 +169,8 @@ def edge(
                 agent.end()
             else:
                 _tell(f"run {run} was mapped before; --run NAME sends it again as another one")
-            done = sender.empty(wait, lambda left: progress(f"{left} to send", 1.0))
+            with stop.possible():
+                done = sender.empty(wait, lambda left: progress(f"{left} to send", 1.0))
         finally:
             sender.stop()
             if waiting.waiting:
@@ -286,3 +295,36 @@ def _end_on_sigterm() -> None:
         raise KeyboardInterrupt
 
     signal.signal(signal.SIGTERM, end)
+
+
+class _Stop:
+    """Ctrl-C and SIGTERM, which end an agent where it waits, and never in the midst of its work.
+
+    Attributes:
+        wanted: whether it is to end.
+    """
+
+    def __init__(self) -> None:
+        self.wanted = self._possible = False
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, self._on_signal)
+
+    def _on_signal(self, *_: object) -> None:
+        again, self.wanted = self.wanted, True
+        if self._possible or again:
+            raise KeyboardInterrupt
+
+    @contextmanager
+    def possible(self) -> Iterator[None]:
+        """Where it may end.
+
+        Raises:
+            KeyboardInterrupt: it does.
+        """
+        self._possible = True
+        try:
+            if self.wanted:
+                raise KeyboardInterrupt
+            yield
+        finally:
+            self._possible = False
