@@ -60,21 +60,22 @@ class Mapper(Protocol):
         """What is new since the last call."""
 
 
-def run_of(file: Path, *options: object) -> str:
+def run_of(log: Path, *options: object) -> str:
     """Name of the run in which a log is replayed: the same again has the same.
 
     Args:
-        file: the log.
+        log: a file, or a folder of files.
         options: all else that its increments depend on.
 
     Raises:
-        InputError: the file cannot be read.
+        InputError: a file cannot be read.
     """
     digest = hashlib.sha256(json.dumps([str(each) for each in options]).encode())
+    files = sorted(each for each in log.rglob("*") if each.is_file()) if log.is_dir() else [log]
     try:
-        with file.open("rb") as log:
-            while piece := log.read(_BYTES):
-                digest.update(piece)
+        for file in files:
+            with file.open("rb") as opened:
+                digest.update(hashlib.file_digest(opened, "sha256").digest())
     except OSError as error:
         raise InputError(f"{file} cannot be read: {error.strerror or error}") from error
     return f"replay-{digest.hexdigest()[:24]}"
@@ -105,7 +106,7 @@ class EdgeAgent:
         self._every, self._tell, self._give_up = every, tell, give_up
         self._due: float | None = None
         self._noted = 0
-        self._features: dict[str, int | None] = {ROBOT_CLASS.casefold(): ROBOT}
+        self._features: dict[str, int | None] = {}
         self.unknown: Counter[str] = Counter()
         """Class that is not known -> how many sightings were left out."""
 
@@ -135,7 +136,9 @@ class EdgeAgent:
     def _see(self, seen: SightingRecord) -> None:
         name = seen.feature.casefold()
         if name not in self._features:
-            self._features[name] = self._index_of(seen.feature)
+            found = self._index_of(seen.feature)
+            is_robot = found is None and name == ROBOT_CLASS.casefold()
+            self._features[name] = ROBOT if is_robot else found
         feature = self._features[name]
         if feature is None:
             self.unknown[seen.feature[:80]] += 1

@@ -12,7 +12,7 @@ from symboslam.engine.slam.log import ROBOT, Pose, RobotLog
 from symboslam.errors import InputError
 
 ROBOT_CLASS = "Robot"
-"""What a record calls a robot that was seen."""
+"""What a record calls a robot that was seen, unless the ontology has such a feature."""
 _FARTHEST = 1e9
 _SHOWN = 5
 """Bad lines that are told one by one."""

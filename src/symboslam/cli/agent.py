@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
 from secrets import token_hex
-from typing import Annotated, NoReturn
+from typing import Annotated, Any, NoReturn
 
 import typer
 
@@ -51,7 +51,7 @@ def edge(
         typer.Argument(
             metavar="LOG",
             help="What the robot wrote down, a line of JSON for each record; - is standard input, "
-            "from a robot that drives.",
+            "from a robot that drives. Or a file or folder that `symboslam slam` reads.",
         ),
     ],
     robot: Annotated[str, typer.Option(metavar="NAME", help="Its name; no other has it.")],
@@ -63,7 +63,7 @@ def edge(
             metavar="X,Y,DEGREES",
             help="Where its odometry began: metres east and north of the map's origin, and its "
             "heading from east to north.",
-            show_default="not known",
+            show_default="what the log says",
         ),
     ] = None,
     every: Annotated[
@@ -79,11 +79,23 @@ def edge(
         ),
     ] = None,
     sigma_range: Annotated[
-        float, typer.Option(metavar="METRES", min=1e-6, help="Standard deviation of ranges.")
-    ] = 0.5,
+        float | None,
+        typer.Option(
+            metavar="METRES",
+            min=1e-6,
+            help="Standard deviation of ranges.",
+            show_default="0.5, or what the log says",
+        ),
+    ] = None,
     sigma_bearing: Annotated[
-        float, typer.Option(metavar="RADIANS", min=1e-6, help="Standard deviation of bearings.")
-    ] = 0.02,
+        float | None,
+        typer.Option(
+            metavar="RADIANS",
+            min=1e-6,
+            help="Standard deviation of bearings.",
+            show_default="0.02, or what the log says",
+        ),
+    ] = None,
     run: Annotated[
         str | None,
         typer.Option(
@@ -121,7 +133,7 @@ def edge(
     """  # fmt: skip
     from symboslam import __version__
     from symboslam.engine.slam.edge import EdgeMapper
-    from symboslam.sim_bridge.agents import records
+    from symboslam.sim_bridge.agents import records, replay
     from symboslam.sim_bridge.agents.classes import Classes
     from symboslam.sim_bridge.agents.edge import EdgeAgent, Sender, check_map, paced, run_of
     from symboslam.sim_bridge.agents.link import Link
@@ -143,15 +155,17 @@ def edge(
         sender.start()
         try:
             if waiting.begin(run):
-                classes = Classes.of(knowledge)
-                mapper = EdgeMapper(
-                    robot, classes.names, classes.dynamic, run=run, start=begin,
-                    sigma_range=sigma_range, sigma_bearing=sigma_bearing,
-                )  # fmt: skip
+                classes, known = Classes.of(knowledge), dict[str, Any]()
+                if live or not replay.is_mission(Path(log)):
+                    source = records.read(_lines(log, progress), log, _tell)
+                else:
+                    source, known = replay.read(Path(log), robot, knowledge, _tell)
+                given = {"start": begin, "sigma_range": sigma_range, "sigma_bearing": sigma_bearing}
+                known |= {name: value for name, value in given.items() if value is not None}
+                mapper = EdgeMapper(robot, classes.names, classes.dynamic, run=run, **known)
                 agent = EdgeAgent(
                     mapper, waiting, knowledge.index_of, every, _tell, lambda: stop.wanted
                 )
-                source = records.read(_lines(log, progress), log, _tell)
                 paced_source = iter(paced(source, None if live else speed))
                 try:
                     while True:

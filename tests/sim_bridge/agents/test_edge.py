@@ -82,6 +82,7 @@ def test_a_replay_has_the_name_of_its_content(tmp_path: Path) -> None:
     assert run_of(one, 1, None) == run_of(two, 1, None) != run_of(one, 2, None)
     two.write_text("b")
     assert run_of(one, 1) != run_of(two, 1)
+    assert run_of(tmp_path, 1) == run_of(tmp_path, 1) != run_of(one, 1)
     with pytest.raises(InputError, match="cannot be read"):
         run_of(tmp_path / "none")
 

@@ -204,11 +204,13 @@ def test_what_cannot_be(agents: Agents, tmp_path: Path) -> None:
         return err
 
     log = written(tmp_path, "r1", 20.0, 1.0)
-    (tmp_path / "bad").write_text("x\n")
+    (tmp_path / "bad.ndjson").write_text("x\n")
     with serve(tmp_path / "data", rate="none") as (_, client):
         which, url = make(client), str(client.base_url)
         assert "there is no map 'none'" in said(agents.edge(log, "r1", "none", url), 2)
-        assert "is no log of a robot" in said(agents.edge(tmp_path / "bad", "r1", which, url), 2)
+        assert "is no log of a robot" in said(
+            agents.edge(tmp_path / "bad.ndjson", "r1", which, url), 2
+        )
         assert "there is no map 'none'" in said(agents("control", "--map", "none", "--to", url), 2)
     late = said(agents.edge(log, "r1", which, url, "--wait", 0.2), 3)
     assert "increments wait in" in late
