@@ -1,7 +1,6 @@
 """Increments of robots over HTTP: each once, in any order, kept; what is known of the robots."""
 
 import json
-import random
 import signal
 import threading
 import time
@@ -174,35 +173,30 @@ def test_a_map_takes_its_increments_with_it(shared: Service) -> None:
 
 
 def test_acknowledged_increments_survive_kill_9(tmp_path: Path) -> None:
-    settings = {"rate": "none"}
-    with serve(tmp_path / "data", **settings) as (_, client):
+    acknowledged: set[tuple[str, int]] = set()
+    with serve(tmp_path / "data", rate="none") as (process, client):
         wanted = {"name": "test", "bbox": [0, 0, 9, 9], "crs": "m"}
         which = client.post("/v1/maps", json=wanted, headers=ADMIN).json()["id"]
-    acknowledged: set[tuple[str, int]] = set()
-    for kill in range(2):
-        with serve(tmp_path / "data", **settings) as (process, client):
 
-            def send(robot: str, kill: int = kill, url: str = str(client.base_url)) -> None:
-                with httpx.Client(base_url=url, timeout=60) as mine:
-                    for n in range(1000 * kill, 1000 * kill + 1000):
-                        try:
-                            post(mine, which, increment(robot, sequence=n)).raise_for_status()
-                        except httpx.TransportError:
-                            return
-                        acknowledged.add((robot, n))
+        def send(robot: str, url: str = str(client.base_url)) -> None:
+            with httpx.Client(base_url=url, timeout=60) as mine:
+                for n in range(100_000):
+                    try:
+                        post(mine, which, increment(robot, sequence=n)).raise_for_status()
+                    except httpx.TransportError:
+                        return
+                    acknowledged.add((robot, n))
 
-            threads = [threading.Thread(target=send, args=(f"r{n}",)) for n in range(3)]
-            for thread in threads:
-                thread.start()
-            until = len(acknowledged) + 40
-            while len(acknowledged) < until:
-                time.sleep(0.002)
-            time.sleep(random.Random(kill).uniform(0, 0.05))
-            process.send_signal(signal.SIGKILL)
-            process.wait()
-            for thread in threads:
-                thread.join()
-    with serve(tmp_path / "data", **settings) as (_, client):
+        threads = [threading.Thread(target=send, args=(f"r{n}",)) for n in range(3)]
+        for thread in threads:
+            thread.start()
+        while len(acknowledged) < 60:
+            time.sleep(0.002)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        for thread in threads:
+            thread.join()
+    with serve(tmp_path / "data", rate="none") as (_, client):
         found = fetch(client, which, limit=10_000)
         names = [(each["increment"]["robot"], each["increment"]["sequence"]) for each in found]
         assert len(set(names)) == len(names)

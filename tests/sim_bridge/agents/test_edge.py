@@ -20,7 +20,7 @@ from symboslam.sim_bridge.agents.records import (
     Record,
     SightingRecord,
 )
-from symboslam.sim_bridge.agents.spool import Spool
+from symboslam.sim_bridge.agents.spool import Spool, SpoolFullError
 from tests.service.increments import increment
 from tests.sim_bridge.agents.fakes import EdgeMapper
 
@@ -178,6 +178,24 @@ def test_a_full_spool_is_waited_for(tmp_path: Path) -> None:
     spool.close()
     assert len(link.taken) == 10
     assert any("is full" in line and "nothing is read" in line for line in told)
+
+
+def test_who_gives_up_is_told_that_it_is_full(tmp_path: Path) -> None:
+    spool = Spool(tmp_path, "r1", "m 1", 1500)
+    spool.begin("a")
+    told: list[str] = []
+    agent = EdgeAgent(
+        EdgeMapper("r1", CLASSES, None, run="a"), spool, index_of, 0.5, told.append, lambda: True
+    )
+
+    def feed() -> None:
+        for record in drive(9):
+            agent.feed(record)
+
+    with pytest.raises(SpoolFullError, match="is full"):
+        feed()
+    assert spool.waiting
+    spool.close()
 
 
 @pytest.mark.parametrize(

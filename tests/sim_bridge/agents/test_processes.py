@@ -197,6 +197,7 @@ def test_robots_of_one_name_and_signals(agents: Agents, tmp_path: Path) -> None:
         assert "two robots at a time are called r1" in said
 
 
+@pytest.mark.slow
 def test_what_cannot_be(agents: Agents, tmp_path: Path) -> None:
     def said(process: "subprocess.Popen[str]", code: int) -> str:
         err = process.communicate(timeout=60)[1]
