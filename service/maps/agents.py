@@ -40,6 +40,8 @@ from symboslam.service.vocabulary import JSON, NDJSON
 
 router = APIRouter(prefix="/v1/maps/{map_id}", tags=["Robots"], route_class=JSONRoute)
 _KINDS = (NDJSON, "application/ndjson", "application/jsonl")
+_MALFORMED = {True: (400, "invalid-json"), False: (422, "invalid-increment")}
+"""Whether a body is to be JSON -> status and name where it is none; as for observations."""
 
 
 async def _mailbox(request: Request) -> Mailbox:
@@ -92,7 +94,8 @@ def _increments(body: bytes, kind: str) -> list[EdgeIncrement]:
         text = body.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = body[: error.start].count(10) + 1
-        raise Problem(400, "not-utf-8", f"body: line {line}: it is not UTF-8 text") from error
+        detail = f"body: line {line}: it is not UTF-8 text"
+        raise Problem(*_MALFORMED[kind == JSON], detail, line=line) from error
     lines = enumerate(text.split("\n"), 1) if kind != JSON else [(1, text)]
     return [_increment(each, number, kind) for number, each in lines if each.strip()]
 
@@ -108,7 +111,7 @@ def _increment(text: str, number: int, kind: str) -> EdgeIncrement:
     except JSONError as error:
         line = error.line if kind == JSON else number
         detail = f"body: line {line} column {error.column}: {error.problem}"
-        raise Problem(400, "invalid-json", detail, line=line, column=error.column) from error
+        raise Problem(*_MALFORMED[kind == JSON], detail, line=line, column=error.column) from error
     except RepeatedMemberError as error:
         raise Problem(422, "repeated-member", f"{where}: {error}; give it once") from error
     except InputError as error:

@@ -77,10 +77,10 @@ def test_another_content_under_the_same_name_is_refused(shared: Service) -> None
 @pytest.mark.parametrize(
     ("content", "status", "said"),
     [
-        ('{"robot": }', 400, "line 2 column 11"), ("[]", 422, "line 2: it is no JSON object"),
+        ('{"robot": }', 422, "line 2 column 11"), ("[]", 422, "line 2: it is no JSON object"),
         ('{"robot": "a", "robot": "b"}', 422, "'robot' twice"),
         (json.dumps({**increment(), "time": [1, 1]}), 422, "line 2: time: row 1"),
-        (b"\xff", 400, "UTF-8"),
+        (b"\xff", 422, "line 2: it is not UTF-8"),
     ],
 )  # fmt: skip
 def test_what_is_wrong_is_said_with_its_line(
@@ -89,7 +89,9 @@ def test_what_is_wrong_is_said_with_its_line(
     which = make(shared)
     body = json.dumps(increment()).encode() + b"\n"
     body += content if isinstance(content, bytes) else content.encode()
-    response = shared.client.post(f"/v1/maps/{which}/increments", content=body, headers=NDJSON)
+    url = f"/v1/maps/{which}/increments"
+    assert shared.client.post(url, content=body, headers=JSON).status_code == 400
+    response = shared.client.post(url, content=body, headers=NDJSON)
     assert response.status_code == status
     assert said in response.json()["detail"]
     assert fetch(shared.client, which) == []
