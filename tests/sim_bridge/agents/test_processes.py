@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import random
 import signal
 import subprocess
 import sys
@@ -195,6 +196,35 @@ def test_robots_of_one_name_and_signals(agents: Agents, tmp_path: Path) -> None:
         said = control.communicate(timeout=60)[1]
         assert control.returncode == 130, said
         assert "two robots at a time are called r1" in said
+
+
+@pytest.mark.slow
+def test_killed_again_and_again(agents: Agents, tmp_path: Path) -> None:
+    """Whatever is killed and whenever: each increment is there once, and none is missing."""
+    chance, data, port = random.Random(5), tmp_path / "data", "0"
+    log = written(tmp_path, "r1", 20.0, 10.0)
+    one: Any = None
+    which = url = ""
+    for n in range(12):
+        with serve(data, "--port", port, rate="none") as (server, client):
+            url, port = str(client.base_url), str(client.base_url.port)
+            which = which or make(client)
+            if one is None or one.poll() is not None:
+                one = agents.edge(log, "r1", which, url, "--start", "0,20,0", "--speed", 2)
+            time.sleep(chance.uniform(1.0, 2.5))
+            if n % 2:
+                one.send_signal(signal.SIGKILL)
+                one.wait()
+            server.send_signal(signal.SIGKILL)
+            server.wait()
+    with serve(data, "--port", port, rate="none") as (_, client):
+        one.kill()
+        last = agents.edge(log, "r1", which, url, "--start", "0,20,0", "--speed", 2)
+        err = last.communicate(timeout=60)[1]
+        assert last.returncode == 0, err
+        control = agents("control", "--map", which, "--to", url, "--every", 0.2, "--once")
+        assert control.wait(60) == 0
+        check(client, which, {"r1": 101})
 
 
 @pytest.mark.slow
