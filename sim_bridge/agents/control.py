@@ -110,6 +110,8 @@ class ControlAgent:
         """
         self._there = dict.fromkeys(self._ours())
         new, looked = False, -math.inf
+        while self.fetch(0.0):  # all there is: half a map would take landmarks back
+            new = True
         while True:
             new = self.fetch(min(self._settings.every, _LONGEST_WAIT)) or new
             if time.monotonic() - looked < self._settings.every:

@@ -48,12 +48,14 @@ class Given:
     def __init__(self) -> None:
         self.notes: list[str] = []
         self.added: list[EdgeIncrement] = []
+        self.solved: list[int] = []
         self.landmarks: dict[str, tuple[int, float, float]] = {}
 
     def add(self, increment: EdgeIncrement) -> None:
         self.added.append(increment)
 
     def solve(self) -> SlamMap:
+        self.solved.append(len(self.added))
         m, n = self.landmarks, len(self.landmarks)
         column = np.empty(n, object)
         column[:] = list(m)
@@ -112,6 +114,16 @@ def test_one_that_begins_anew_leaves_nothing_behind(service: Service) -> None:
     agent(service, which, collective, []).run(once=True)
     assert [each.sequence for each in collective.added] == [0, 1]
     assert landmarks(service, which) == {"control/b": [7.0, 6.0]}
+
+
+def test_one_that_begins_anew_reads_everything_first(
+    service: Service, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    which, collective = make(service), Given()
+    post(service.client, which, *(increment(sequence=n, last=n == 6) for n in range(7)))
+    monkeypatch.setattr("symboslam.sim_bridge.agents.control._AT_A_TIME", 1)
+    agent(service, which, collective, [], every=0.0).run(once=True)
+    assert collective.solved == [7, 7]
 
 
 def test_the_end_is_when_all_robots_have_ended(service: Service) -> None:
