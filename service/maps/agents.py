@@ -23,7 +23,7 @@ from symboslam.service.json_body import (
 from symboslam.service.lifecycle import CurrentLifecycle
 from symboslam.service.maps import openapi_agents
 from symboslam.service.maps.mailbox import IncrementConflictError, Mailbox, any_of
-from symboslam.service.maps.models import (
+from symboslam.service.maps.models_agents import (
     IncrementsResult,
     LandmarksRequest,
     RunInfo,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from symboslam.service.maps.models import IncrementsResult
+from symboslam.service.maps.models_agents import IncrementsResult
 from symboslam.service.maps.openapi import TEXT
 from symboslam.service.openapi import also
 from symboslam.service.vocabulary import JSON, NDJSON

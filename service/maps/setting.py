@@ -14,7 +14,7 @@ from symboslam.engine.readers.checks import check_ids
 from symboslam.engine.table import Landmark
 from symboslam.errors import InputError
 from symboslam.reasoning.knowledge import Knowledge
-from symboslam.service.maps.models import LandmarksRequest
+from symboslam.service.maps.models_agents import LandmarksRequest
 
 
 @dataclass(frozen=True)

@@ -1,8 +1,11 @@
-"""Replay: a robot's log in any format that map building reads, as the records of the robot."""
+"""Replay: a robot's log in any format that map building reads, as its records at their times."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import hashlib
+import json
+import time
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -70,3 +73,35 @@ def robot_of(mission: Mission, robot: str, source: str) -> RobotLog:
         names = ", ".join(log.name for log in mission.robots)
         raise InputError(f"{source} has no robot {robot!r}; it has: {names or 'none'}")
     return (found or list(mission.robots))[0]
+
+
+def run_of(log: Path, *options: object) -> str:
+    """Name of the run in which a log is replayed: the same again has the same.
+
+    Args:
+        log: a file, or a folder of files.
+        options: all else that its increments depend on.
+
+    Raises:
+        InputError: a file cannot be read.
+    """
+    digest = hashlib.sha256(json.dumps([str(each) for each in options]).encode())
+    files = sorted(each for each in log.rglob("*") if each.is_file()) if log.is_dir() else [log]
+    try:
+        for file in files:
+            with file.open("rb") as opened:
+                digest.update(hashlib.file_digest(opened, "sha256").digest())
+    except OSError as error:
+        raise InputError(f"{file} cannot be read: {error.strerror or error}") from error
+    return f"replay-{digest.hexdigest()[:24]}"
+
+
+def paced(records: Iterable[Record], speed: float | None) -> Iterable[Record]:
+    """Records at the times at which they were made, so many times faster; None: at once."""
+    start = None
+    for record in records:
+        if speed is not None:
+            start = start or (time.monotonic(), record.time)
+            left = start[0] + (record.time - start[1]) / speed - time.monotonic()
+            time.sleep(min(max(left, 0.0), 3600.0))
+        yield record

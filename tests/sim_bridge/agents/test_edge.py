@@ -12,7 +12,7 @@ import pytest
 
 from symboslam.engine.slam.increment import EdgeIncrement
 from symboslam.errors import InputError
-from symboslam.sim_bridge.agents.edge import EdgeAgent, Sender, paced, run_of
+from symboslam.sim_bridge.agents.edge import EdgeAgent
 from symboslam.sim_bridge.agents.link import Link, LinkDownError, Patience, RefusedError
 from symboslam.sim_bridge.agents.records import (
     FixRecord,
@@ -20,6 +20,8 @@ from symboslam.sim_bridge.agents.records import (
     Record,
     SightingRecord,
 )
+from symboslam.sim_bridge.agents.replay import paced, run_of
+from symboslam.sim_bridge.agents.sender import Sender
 from symboslam.sim_bridge.agents.spool import Spool, SpoolFullError
 from tests.service.increments import increment
 from tests.sim_bridge.agents.fakes import EdgeMapper

@@ -18,7 +18,7 @@ import pytest
 
 pytest.importorskip("fastapi", reason="needs symboslam[service]")
 
-from symboslam.cli.agent import _start
+from symboslam.cli.agent_edge import _start
 from symboslam.errors import InputError
 from tests.service.conftest import ADMIN, TOKEN
 from tests.service.test_durability import serve
