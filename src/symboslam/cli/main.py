@@ -8,6 +8,7 @@ import sys
 import typer
 
 from symboslam.cli import (
+    agent,
     classify,
     cq,
     evaluate,
@@ -48,6 +49,7 @@ app.command("serve", epilog=serve.EXAMPLES)(serve.serve)
 app.command("query", epilog=query.EXAMPLES)(query.query)
 app.command("push", epilog=push.EXAMPLES)(push.push)
 app.command("why", epilog=why.EXAMPLES)(why.why)
+app.add_typer(agent.app, name="agent")
 app.add_typer(ontology.app, name="ontology")
 app.add_typer(cq.app, name="cq")
 app.add_typer(token.app, name="token")
