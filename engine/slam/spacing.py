@@ -1,0 +1,42 @@
+"""Radii: within how many metres two places may be of one landmark, where nobody says."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from symboslam.engine.slam.log import Floats, Measurements
+
+LARGEST = 12.0
+"""Metres: the gate of worlds of a kilometre and more, which were driven with a sight of 80 m."""
+OF_SIGHT = 0.15
+"""Radius of merging as a share of the sight; 12 m of 80 m."""
+
+
+def radius_by_sight(seen: Iterable[Measurements]) -> float:
+    """Radius of merging in metres: 0.15 of the sight, at most 12 m (docs/decisions/0019).
+
+    The sight is the range within which 95 % of all sightings lie; without any range it is 80 m.
+    """
+    ranges = np.concatenate([np.empty(0), *(s.range[np.isfinite(s.range)] for s in seen)])
+    if not len(ranges):
+        return LARGEST
+    return min(LARGEST, OF_SIGHT * float(np.quantile(ranges, 0.95)))
+
+
+def radius_by_spacing(xy: Floats) -> float:
+    """Radius of matching in metres: half the spacing of the true landmarks, at most 12 m.
+
+    The spacing is the median distance from a landmark to the nearest other; landmarks in one and
+    the same place do not count, and with fewer than two places the radius is 12 m.
+
+    Args:
+        xy: (n, 2) metres.
+    """
+    from scipy.spatial import cKDTree
+
+    places = np.unique(xy, axis=0)
+    if len(places) < 2:
+        return LARGEST
+    return min(LARGEST, float(np.median(cKDTree(places).query(places, 2)[0][:, 1])) / 2)
