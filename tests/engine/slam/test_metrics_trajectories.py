@@ -23,10 +23,10 @@ from symboslam.engine.slam.trajectory_error import (
 from symboslam.errors import InputError
 
 HERE = Path(__file__).parent
-# Made by make_evo_numbers.py with evo 1.38.1: APE and RPE (consecutive pairs, pairs by the
+# Made by scripts/evo_numbers.py with evo 1.38.1: APE and RPE (consecutive pairs, pairs by the
 # estimate) of paths in a plane, associated with max_diff 0.01, `align` without scale.
 EVO = json.loads((HERE / "evo_numbers.json").read_text())
-PATHS = runpy.run_path(str(HERE / "make_evo_numbers.py"))["paths"]
+PATHS = runpy.run_path(str(HERE.parents[2] / "scripts" / "evo_numbers.py"))["paths"]
 seconds = st.lists(st.floats(0, 100), max_size=30).map(lambda v: np.array(sorted(v), float))
 
 

@@ -1,19 +1,20 @@
-"""Make evo_numbers.json: evo's ATE and RPE of two made-up paths. Needs evo, which is no dependency.
+"""Write tests/engine/slam/evo_numbers.json: evo's ATE and RPE of made-up paths.
 
-pip install evo==1.38.1 (GPL-3, so it is only compared with); then:
-python tests/engine/slam/make_evo_numbers.py
+evo is GPL-3 and so no dependency; its numbers are only compared with. To make them anew:
+pip install evo==1.38.1; python scripts/evo_numbers.py
 """
 
 from __future__ import annotations
 
 import json
+from importlib import import_module
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-OUT = Path(__file__).with_name("evo_numbers.json")
+OUT = Path(__file__).parents[1] / "tests" / "engine" / "slam" / "evo_numbers.json"
 
 
 def noise(count: int, seed: float) -> Any:
@@ -41,15 +42,16 @@ def paths(seed: int) -> tuple[Any, Any]:
 
 def numbers() -> dict[str, Any]:
     """evo's statistics of each pair of paths."""
-    from evo.core import metrics, sync
-    from evo.core.metrics import APE, RPE, PoseRelation, Unit
-    from evo.core.trajectory import PoseTrajectory3D
+    metrics, sync, paths_of_evo = (
+        import_module(f"evo.core.{name}") for name in ("metrics", "sync", "trajectory")
+    )
+    relation, unit_of = metrics.PoseRelation, metrics.Unit
 
     def trajectory(rows: Any) -> Any:
         n, half = len(rows), rows[:, 3] / 2
         xyz = np.column_stack([rows[:, 1:3], np.zeros(n)])
         wxyz = np.column_stack([np.cos(half), np.zeros((n, 2)), np.sin(half)])
-        return PoseTrajectory3D(xyz, wxyz, rows[:, 0].copy())
+        return paths_of_evo.PoseTrajectory3D(xyz, wxyz, rows[:, 0].copy())
 
     def statistics(metric: Any, data: Any) -> dict[str, float]:
         metric.process_data(data)
@@ -61,14 +63,14 @@ def numbers() -> dict[str, Any]:
         found, truth = paths(seed)
         ref, est = sync.associate_trajectories(trajectory(truth), trajectory(found), max_diff=0.01)
         made[str(seed)] = one = {"poses": est.num_poses}
-        one["ate_raw"] = statistics(APE(), (ref, est))
+        one["ate_raw"] = statistics(metrics.APE(), (ref, est))
         for value, unit in ((1, "f"), (7, "f"), (1.0, "m"), (5.5, "m")):
-            kind = Unit.frames if unit == "f" else Unit.meters
-            for name, relation in (
-                ("rpe_m", PoseRelation.translation_part),
-                ("rpe_rad", PoseRelation.rotation_angle_rad),
+            kind = unit_of.frames if unit == "f" else unit_of.meters
+            for name, part in (
+                ("rpe_m", relation.translation_part),
+                ("rpe_rad", relation.rotation_angle_rad),
             ):
-                metric = RPE(relation, value, kind)
+                metric = metrics.RPE(part, value, kind)
                 one[f"{name} {value:g}{unit}"] = statistics(metric, (ref, est))
         est.align(ref, correct_scale=False)
         one["ate"] = statistics(metrics.APE(), (ref, est))
