@@ -41,7 +41,7 @@ def paths(seed: int) -> tuple[Any, Any]:
 
 
 def numbers() -> dict[str, Any]:
-    """evo's statistics of each pair of paths."""
+    """The statistics that evo has of each pair of paths."""
     metrics, sync, paths_of_evo = (
         import_module(f"evo.core.{name}") for name in ("metrics", "sync", "trajectory")
     )
