@@ -66,7 +66,7 @@ def evaluate_slam(
         typer.Option(
             metavar="METRES",
             help="How far a landmark may be from the true one that it is matched with.",
-            show_default="half the spacing of the true ones, at most 12",
+            show_default="half the spacing of the true ones by their density, at most 12",
         ),
     ] = None,
     max_diff: Annotated[

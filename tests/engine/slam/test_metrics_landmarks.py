@@ -85,9 +85,11 @@ def test_no_alignment_from_one_pair() -> None:
 
 
 def test_radius_is_half_the_spacing_and_at_most_12_metres() -> None:
-    assert radius_by_spacing(np.array([[0.0, 0], [2, 0], [2, 0], [4, 0]])) == 1
-    assert radius_by_spacing(np.array([[0.0, 0], [900, 0]])) == 12
+    corners = np.array([[0.0, 0], [4, 0], [0, 4], [4, 4]])
+    assert radius_by_spacing(corners) == pytest.approx(1)  # four in 4 m x 4 m: one every 2 m
+    assert radius_by_spacing(corners * 100) == 12
     assert radius_by_spacing(np.zeros((3, 2))) == 12
+    assert radius_by_spacing(np.zeros((0, 2))) == 12
 
 
 TRUTH = Truth(
