@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -31,10 +31,12 @@ class Side:
     Attributes:
         paths: name of the file without its ending -> trajectory.
         points: landmarks; None for none.
+        notes: what was mended on reading.
     """
 
     paths: Mapping[str, Trajectory]
     points: Points | None
+    notes: tuple[str, ...] = ()
 
 
 class _NoFeatures:
@@ -70,7 +72,7 @@ def read_sides(
     classes = Codes()
     ours, true = _side(estimate, landmarks, classes), _side(truth, true_landmarks, classes)
     if len(ours.paths) == len(true.paths) == 1:
-        true = Side(dict(zip(ours.paths, true.paths.values(), strict=True)), true.points)
+        true = replace(true, paths=dict(zip(ours.paths, true.paths.values(), strict=True)))
     if (ours.paths or true.paths) and not ours.paths.keys() & true.paths.keys():
         raise InputError(
             "no trajectory of the estimate has the name of a true one: "
@@ -80,7 +82,7 @@ def read_sides(
         if landmarks or true_landmarks or not ours.paths:
             has, lacks = (estimate, truth) if true.points is None else (truth, estimate)
             raise InputError(f"{has} comes with landmarks, and {lacks} without: give both or none")
-        ours, true = Side(ours.paths, None), Side(true.paths, None)
+        ours, true = replace(ours, points=None), replace(true, points=None)
     return ours, true
 
 
@@ -89,7 +91,7 @@ def score_sides(estimate: Side, truth: Side, options: Options) -> SlamScore:
     none = Points(np.empty(0, object), np.empty((0, 2)), np.empty(0, np.int64))
     points = [side.points or none for side in (estimate, truth)]
     classes = 1 + max((int(p.feature.max(initial=0)) for p in points), default=0)
-    return compare(
+    score = compare(
         estimate.paths,
         {name: np.column_stack([path.time, path.pose]) for name, path in truth.paths.items()},
         points[0],
@@ -97,6 +99,7 @@ def score_sides(estimate: Side, truth: Side, options: Options) -> SlamScore:
         np.eye(classes),
         options,
     )
+    return replace(score, notes=(*estimate.notes, *truth.notes, *score.notes))
 
 
 def _side(source: Path, landmarks: Path | None, classes: Codes) -> Side:
@@ -111,12 +114,15 @@ def _side(source: Path, landmarks: Path | None, classes: Codes) -> Side:
         landmarks = landmarks or source
     else:
         files = [source]
-    paths = {}
+    paths: dict[str, Trajectory] = {}
+    notes: list[str] = []
     for file in files:
         if file.stem in paths:
             raise InputError(f"{file}: another trajectory there has the same name {file.stem}")
-        paths[file.stem] = read_trajectory(file)[0]
-    return Side(paths, None if landmarks is None else read_points(landmarks, classes))
+        paths[file.stem], mended = read_trajectory(file)
+        notes += mended
+    points = None if landmarks is None else read_points(landmarks, classes)
+    return Side(paths, points, tuple(notes))
 
 
 def read_points(path: Path, classes: Codes) -> Points:

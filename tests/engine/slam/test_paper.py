@@ -160,11 +160,11 @@ def test_an_edge_map_begins_at_the_origin(log: Any, mission: Any) -> None:
     robot = log("r", [[7, 7, 0], [8, 7, 0], [9, 7, 0]], rows, start=(100.0, 0.0, np.pi / 2))
     edge = edge_map_paper(robot, Rules.of(mission(), 1))
     assert edge.of.tolist() == [0, 0, 2, -1, 0, 1, 1]
-    np.testing.assert_allclose(edge.landmarks.xy, [[15.2 / 3, 0], [5, 0], [5.2, 0]])
+    np.testing.assert_allclose(edge.landmarks.xy, np.array([[15.2 / 3, 0], [5, 0], [5.2, 0]]))
     assert edge.landmarks.feature.tolist() == [1, 3, 2]  # the most confident one's
     assert edge.landmarks.dynamic.tolist() == [False, True, False]
     moved = shifted(edge, (100.0, 0.0, np.pi / 2))
-    np.testing.assert_allclose(moved.landmarks.xy[1], [100, 5], atol=1e-9)
+    np.testing.assert_allclose(moved.landmarks.xy[1], np.array([100, 5]), atol=1e-9)
     found = paper_map(mission(robot), 1)
     end = np.array([100, 2, np.pi / 2])
     np.testing.assert_allclose(found.trajectories["r"].pose[-1], end)
