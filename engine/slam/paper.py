@@ -10,20 +10,15 @@ from dataclasses import replace
 
 import numpy as np
 
+from symboslam.engine.slam.dead_reckoning import starts_of
 from symboslam.engine.slam.landmark_error import SIMILAR
 from symboslam.engine.slam.log import Floats, Ints, Mission, Pose, RobotLog
 from symboslam.engine.slam.paper_edge import EdgeMap, edge_map_paper
 from symboslam.engine.slam.paper_merge import PaperMerge
+from symboslam.engine.slam.paper_oracle import path_with_oracle, true_path
 from symboslam.engine.slam.paper_rules import Rules
 from symboslam.engine.slam.planar import compose, place
-from symboslam.engine.slam.reckoning import (
-    path_of,
-    path_with_oracle,
-    points_of,
-    starts_of,
-    true_path,
-)
-from symboslam.engine.slam.slam_map import MappedLandmarks, SlamMap, Trajectory
+from symboslam.engine.slam.slam_map import SlamMap, Trajectory
 from symboslam.errors import InputError
 
 ORACLE_EVERY = 60.0
@@ -96,67 +91,6 @@ def shifted(edge: EdgeMap, start: Pose) -> EdgeMap:
         Trajectory(path.time, compose(start, path.pose)),
         replace(marks, xy=place(start, marks.xy), covariance=_turned(marks.covariance, start[2])),
         edge.of,
-    )
-
-
-def dead_reckoning(mission: Mission) -> SlamMap:
-    """Odometry from the known starts, and each true landmark at the mean of its sightings.
-
-    For comparison only: which sighting is of what is taken from the truth, so that all error comes
-    from the odometry. A landmark has the class that most of its sightings have.
-
-    Args:
-        mission: with ``identity``; robots that do not know where they began are left out, with a
-            note; if none does, the map is in the frame of the first.
-
-    Raises:
-        InputError: no identities.
-    """
-    if not mission.identity:
-        raise InputError(
-            "dead reckoning maps what the truth says that sightings are of, and this mission does "
-            "not say; without identities, use the paper's merging (paper_map)"
-        )
-    starts, notes = starts_of(mission)
-    names: dict[str, int] = {}
-    landmark_of = {log.name: np.full(len(log.seen), -1, np.int64) for log in mission.robots}
-    paths, points, rows = {}, [np.empty((0, 2))], [np.empty((0, 3))]
-    for log in mission.robots:
-        if log.name not in starts:
-            continue
-        paths[log.name] = path_of(log, starts[log.name])
-        xy, seen = points_of(log, paths[log.name]), log.seen
-        known = np.array([bool(name) for name in mission.identity.get(log.name, ())], bool)
-        known = known if len(known) else np.zeros(len(seen), bool)
-        use = np.flatnonzero(known & np.isfinite(xy).all(1) & (seen.feature >= 0))
-        at = [names.setdefault(str(mission.identity[log.name][row]), len(names)) for row in use]
-        landmark_of[log.name][use] = at
-        points.append(xy[use])
-        rows.append(np.column_stack([at, seen.feature[use], seen.confidence[use]]))
-    marks = _means(np.concatenate(points), np.concatenate(rows), list(names), mission)
-    return SlamMap(paths, marks, landmark_of, notes=tuple(notes))
-
-
-def _means(xy: Floats, rows: Floats, names: list[str], mission: Mission) -> MappedLandmarks:
-    """Landmarks at the means of (k, 2) points; rows are (k, 3) landmark, class, confidence."""
-    n, classes = len(names), len(mission.classes)
-    at, kind = rows[:, 0].astype(np.int64), rows[:, 1].astype(np.int64)
-    count = np.bincount(at, minlength=n)
-    votes = np.bincount(at * classes + kind, minlength=n * classes).reshape(n, classes)
-    feature = votes.argmax(1) if n else np.empty(0, np.int64)
-    confidence = np.zeros(n)
-    same = kind == feature[at]
-    np.maximum.at(confidence, at[same], rows[same, 2])
-    sums = np.column_stack([np.bincount(at, column, minlength=n) for column in xy.T])
-    return MappedLandmarks(
-        id=np.array(names, object),
-        xy=sums / np.maximum(count, 1)[:, None],
-        covariance=np.full((n, 2, 2), np.nan),
-        feature=feature.astype(np.int64),
-        confidence=confidence,
-        sightings=count.astype(np.int64),
-        dynamic=mission.dynamic[feature],
-        key=np.full(n, "", object),
     )
 
 

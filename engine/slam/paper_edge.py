@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from symboslam.engine.slam.dead_reckoning import path_of, points_of
 from symboslam.engine.slam.log import Ints, RobotLog
 from symboslam.engine.slam.paper_rules import Rules
-from symboslam.engine.slam.reckoning import path_of, points_of
 from symboslam.engine.slam.slam_map import MappedLandmarks, Trajectory
 
 

@@ -142,12 +142,14 @@ def _plain(path: Path, columns: int) -> tuple[Floats, Ints] | None:
     data = read_bytes(path).removeprefix(b"\xef\xbb\xbf")
     if _NUL in data or data[-1:] != b"\n":
         return None
+    lines = enumerate(map(bytes.strip, data.split(b"\n")), 1)
+    rows = [number for number, row in lines if row and row[:1] != b"#"]
+    if not rows:
+        return None
     try:
         values = np.loadtxt(io.BytesIO(data), ndmin=2)
     except ValueError:
         return None
-    lines = enumerate(map(bytes.strip, data.split(b"\n")), 1)
-    rows = [number for number, row in lines if row and row[:1] != b"#"]
     if values.shape != (len(rows), columns):
         return None
     return values, np.array(rows, np.int64)

@@ -11,15 +11,21 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from symboslam.engine.slam.dead_reckoning import dead_reckoned
 from symboslam.engine.slam.log import Measurements, Mission, Odometry, RobotLog, Truth
 from symboslam.engine.slam.metrics import Options, evaluate_slam
-from symboslam.engine.slam.paper import dead_reckoning, paper_map, shifted
+from symboslam.engine.slam.paper import paper_map, shifted
 from symboslam.engine.slam.paper_edge import edge_map_paper
+from symboslam.engine.slam.paper_oracle import path_with_oracle
 from symboslam.engine.slam.paper_rules import Rules
 from symboslam.engine.slam.planar import between, compose
-from symboslam.engine.slam.reckoning import path_with_oracle, poses_at
+from symboslam.engine.slam.slam_map import SlamMap
 from symboslam.engine.slam.spacing import radius_by_sight
 from symboslam.errors import InputError
+
+
+def by_identity(mission: Mission) -> SlamMap:
+    return dead_reckoned(mission, by="identity", lost="left out")
 
 
 def drive(rng: Any, name: str, start: Any, world: Any, *, drift: float) -> Any:
@@ -83,13 +89,12 @@ def figures(found: Any, mission: Mission) -> dict[str, Any]:
 
 def test_without_drift_the_map_is_right() -> None:
     mission = world_with_drift(drift=0)
-    for found in (dead_reckoning(mission), paper_map(mission, 2)):
+    for found in (by_identity(mission), paper_map(mission, 2)):
         score = figures(found, mission)
         assert score["landmark_rmse_m"] < 0.5
         assert score["ate_max_m"] < 1e-9
         assert (score["duplicates"], score["wrong_merges"], score["missed"]) == (0, 0, 0)
         assert score["raw"]["accuracy"] == 1
-        assert found.notes == ()
 
 
 def test_drift_spoils_it_and_the_oracle_mends_it(world: Mission) -> None:
@@ -100,7 +105,7 @@ def test_drift_spoils_it_and_the_oracle_mends_it(world: Mission) -> None:
     assert good["ate_max_m"] < 1.5
     assert good["duplicates"] < 5
     assert good["landmark_rmse_m"] < 2 < bad["landmark_rmse_m"]
-    assert figures(dead_reckoning(world), world)["duplicates"] == 0
+    assert figures(by_identity(world), world)["duplicates"] == 0
 
 
 def test_every_row_is_of_a_landmark_or_put_aside(world: Mission) -> None:
@@ -176,11 +181,11 @@ def test_robots_without_a_start_are_left_out(log: Any, mission: Any) -> None:
     row = [(0.0, 5.0, 0.0, "House", 0.6)]
     known, lost = log("a", [[0, 0, 0]], row), log("b", [[0, 0, 0]], row, start=None)
     identity = {"a": ["h"], "b": ["h"]}
-    for make in (paper_map, dead_reckoning):
+    for make in (paper_map, by_identity):
         found = make(mission(known, lost, identity=identity))
         assert list(found.trajectories) == ["a"]
         assert found.landmark_of["b"].tolist() == [-1]
-        assert "robot b: left out" in found.notes[0]
+        assert "robot b: left out" in found.notes[-1]
         alone = make(mission(lost, identity=identity))
         np.testing.assert_allclose(alone.landmarks.xy, [[5, 0]])
 
@@ -188,7 +193,7 @@ def test_robots_without_a_start_are_left_out(log: Any, mission: Any) -> None:
 def test_empty_missions(log: Any, mission: Any) -> None:
     for robots in ((), (log("a", [[0, 0, 0]]),), (log("a", []),)):
         assert len(paper_map(mission(*robots)).landmarks) == 0
-        assert len(dead_reckoning(mission(*robots, identity={"a": []})).landmarks) == 0
+        assert len(by_identity(mission(*robots, identity={"a": []})).landmarks) == 0
 
 
 def test_the_oracle_needs_the_truth(world: Mission, log: Any, mission: Any) -> None:
@@ -197,7 +202,7 @@ def test_the_oracle_needs_the_truth(world: Mission, log: Any, mission: Any) -> N
     with pytest.raises(InputError, match="oracle_every is 0"):
         paper_map(world, oracle_every=0)
     with pytest.raises(InputError, match="identities"):
-        dead_reckoning(mission())
+        by_identity(mission())
 
 
 def test_the_oracle_resets_the_pose(log: Any) -> None:
@@ -208,15 +213,6 @@ def test_the_oracle_resets_the_pose(log: Any) -> None:
     assert path_with_oracle(robot, truth, 2).pose[:, 1].tolist() == [0, 0, 2, 2, 4, 4, 4]
     lost = replace(robot, start=None)
     assert path_with_oracle(lost, truth[2:], 3).pose[:, 1].tolist() == [3] * 7
-
-
-def test_poses_between_poses() -> None:
-    when = np.array([-1, 0.5, 1, 9])
-    pose = np.array([[0, 0, 0], [2, 0, 1.0]])
-    found = poses_at(np.array([0.0, 1]), pose, when)
-    half = np.array([[0, 0, 0], [1, 0, 0.5], [2, 0, 1], [2, 0, 1]])
-    np.testing.assert_allclose(found, half)
-    np.testing.assert_allclose(poses_at(np.zeros(1), pose[:1], when), np.zeros((4, 3)))
 
 
 def test_radius_is_a_share_of_the_sight(log: Any) -> None:

@@ -43,6 +43,7 @@ def test_hills_are_told(write: Write) -> None:
         ("1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 0\n", "line 2: the quaternion is 0"),
         ("1 0 0 0 0 0 1\n", "line 1: this row has 7 columns, 8 are needed"),
         ("nan 0 0 0 0 0 0 1\n", "no row can be read"),
+        ("# comments alone\n", "no row can be read"),
     ],
 )
 def test_what_is_refused(write: Write, content: str, problem: str) -> None:
