@@ -92,6 +92,25 @@ def score_identities(slam_map: SlamMap, mission: Mission) -> IdentityScore:
     )
 
 
+def holders(slam_map: SlamMap, mission: Mission) -> dict[str, int]:
+    """True landmark -> position of the landmark that holds most of its sightings.
+
+    Unlike ``IdentityScore.stands``, a landmark that mixes several true ones may hold each of them:
+    their errors then tell of the mistake. What counts as a sighting is as in `score_identities`.
+
+    Raises:
+        InputError: see `score_identities`.
+    """
+    landmark, name = _attached(slam_map, mission)
+    use = landmark >= 0
+    use[use] = ~slam_map.landmarks.dynamic[landmark[use]]
+    names, identity = np.unique(name[use].astype(str), return_inverse=True)
+    pairs, count = np.unique(np.column_stack([identity, landmark[use]]), axis=0, return_counts=True)
+    best = {int(pairs[row, 0]): int(pairs[row, 1]) for row in np.argsort(count, kind="stable")}
+    known = _landmarks(mission, name)
+    return {str(names[of]): at for of, at in sorted(best.items()) if str(names[of]) in known}
+
+
 def _attached(slam_map: SlamMap, mission: Mission) -> tuple[Ints, NDArray[np.object_]]:
     """Landmark (-1 for none) and identity of all sightings whose identity is known."""
     landmarks, names = [np.empty(0, np.int64)], [np.empty(0, object)]

@@ -69,12 +69,11 @@ def evaluate_slam(slam_map: SlamMap, mission: Mission, options: Options | None =
     Raises:
         InputError: the identities or the map's ``landmark_of`` do not fit the logs.
     """
-    truth, marks = mission.truth, slam_map.landmarks
-    static = np.flatnonzero(~marks.dynamic)
-    found = Points(marks.id[static], marks.xy[static], marks.feature[static])
+    truth, static = mission.truth, np.flatnonzero(~slam_map.landmarks.dynamic)
+    found = static_points(slam_map)
     true, similarity = None, mission.similarity
     if truth is not None and truth.landmarks:
-        true, similarity = _true_points(mission)
+        true, similarity = true_points(mission)
     identities = pairs = None
     if mission.identity:
         identities = score_identities(slam_map, mission)
@@ -188,8 +187,19 @@ def _alignment_of_paths(
     return rigid(found, true) if len(found) >= 2 else None
 
 
-def _true_points(mission: Mission) -> tuple[Points, Floats]:
-    """The static true landmarks, and the similarity with classes that only the truth has added."""
+def static_points(slam_map: SlamMap) -> Points:
+    """The static landmarks of a map."""
+    marks = slam_map.landmarks
+    static = ~marks.dynamic
+    return Points(marks.id[static], marks.xy[static], marks.feature[static])
+
+
+def true_points(mission: Mission) -> tuple[Points, Floats]:
+    """The static true landmarks, and the similarity with classes that only the truth has added.
+
+    Args:
+        mission: with ``truth``.
+    """
     assert mission.truth is not None
     classes = list(mission.classes)
     number = {name: i for i, name in enumerate(classes)}

@@ -66,7 +66,8 @@ def read(folder: Path, classes: int | None = None, start: str = "all") -> tuple[
     if classes is not None and classes < 1:
         raise InputError(f"classes is {classes}; it must be 1 or more")
     if not folder.is_dir():
-        raise InputError(f"{folder}: an MRCLAM set is a folder with Barcodes.dat in it")
+        what = "this is a file" if folder.exists() else "there is no such folder"
+        raise InputError(f"{folder}: {what}; an MRCLAM set is a folder with Barcodes.dat in it")
     notes: list[str] = []
     subject_of = _barcodes(folder, notes)
     landmarks = _landmarks(folder, notes)
@@ -119,7 +120,9 @@ def _barcodes(folder: Path, notes: list[str]) -> dict[int, int]:
     """Barcode -> subject."""
     path = find_file(folder, "Barcodes.dat")
     if path is None:
-        raise InputError(f"{folder}: there is no Barcodes.dat")
+        raise InputError(
+            f"{folder}: this is no MRCLAM set: there is no Barcodes.dat in it, plain or .gz"
+        )
     table = read_table(path, ("subject", "barcode"), notes)
     found: dict[int, int] = {}
     for row, line in zip(table.values.tolist(), table.line.tolist(), strict=True):

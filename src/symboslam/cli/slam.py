@@ -7,8 +7,17 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from symboslam.cli import slam_mrclam, slam_run
 from symboslam.cli.common import OntologyOption, load_knowledge, progress_bar, show
-from symboslam.errors import GeometryError
+from symboslam.cli.slam_common import (
+    ClassesOption,
+    FromOption,
+    IdentitiesOption,
+    OriginOption,
+    StartsOption,
+    origin_of,
+    plural,
+)
 
 if TYPE_CHECKING:
     from symboslam.engine.slam.log import Mission
@@ -46,35 +55,20 @@ def convert(
         Path,
         typer.Argument(metavar="OUT", help="Map: .tum, .g2o, .geojson, .ttl or .dsg.json."),
     ],
-    read_as: Annotated[
-        str | None,
-        typer.Option("--from", help="mrclam, csv, g2o, gtsam or tum.", show_default="by content"),
-    ] = None,
+    read_as: FromOption = None,
     write_as: Annotated[
         str | None,
         typer.Option(
             "--to", help="tum, g2o, geojson, turtle or spark_dsg.", show_default="by OUT's ending"
         ),
     ] = None,
-    classes: Annotated[
-        int | None,
-        typer.Option(help="mrclam: so many classes in the place of identities."),
-    ] = None,
-    start: Annotated[
-        str | None,
-        typer.Option(help="mrclam: robots whose start is known: all, first or none."),
-    ] = None,
-    identities: Annotated[
-        str | None,
-        typer.Option(help="g2o, gtsam: landmarks' numbers shown or hidden."),
-    ] = None,
+    classes: ClassesOption = None,
+    starts: StartsOption = None,
+    identities: IdentitiesOption = None,
     every: Annotated[
         float, typer.Option(min=0, help="Seconds between poses at least; 0 keeps all.")
     ] = 0.0,
-    origin: Annotated[
-        str | None,
-        typer.Option(metavar="LON,LAT", help="geojson: where (0, 0) lies.", show_default="metres"),
-    ] = None,
+    origin: OriginOption = None,
     paths: Annotated[
         Path | None, typer.Option(metavar="FILE", help="geojson: also the paths, to this file.")
     ] = None,
@@ -93,7 +87,7 @@ def convert(
     wanted = writers.format_of(target, write_as)
     outputs = [target, *([paths] if paths else [])]
     check_targets(outputs, inputs, lambda _: wanted)
-    options: dict[str, Any] = {"classes": classes, "start": start, "identities": identities}
+    options: dict[str, Any] = {"classes": classes, "start": starts, "identities": identities}
     with progress_bar() as progress:
         name = readers.format_of(source, read_as)
         asked = name == "csv" or wanted == "turtle"
@@ -108,7 +102,7 @@ def convert(
             found,
             mission,
             wanted,
-            origin=_origin(origin),
+            origin=origin_of(origin),
             paths=paths,
             knowledge=knowledge if wanted == "turtle" else None,
         )
@@ -118,27 +112,13 @@ def convert(
 
 
 def _summary(mission: Mission) -> str:
-    robots = len(mission.robots)
     poses = sum(len(log.odometry) for log in mission.robots)
     seen = sum(len(log.seen) for log in mission.robots)
     return (
-        f"{robots} robot{'s' if robots != 1 else ''}, {poses} poses, {seen} sightings of "
-        f"{len(mission.classes)} class{'es' if len(mission.classes) != 1 else ''}"
+        f"{plural(len(mission.robots), 'robot')}, {poses} poses, {seen} sightings of "
+        f"{plural(len(mission.classes), 'class', 'classes')}"
     )
 
 
-def _origin(text: str | None) -> tuple[float, float] | None:
-    """The two numbers of ``LON,LAT``.
-
-    Raises:
-        GeometryError: not two numbers.
-    """
-    if text is None:
-        return None
-    try:
-        longitude, latitude = (float(v) for v in text.replace(" ", "").split(","))
-    except ValueError:
-        raise GeometryError(
-            f"--origin {text!r}: give two numbers LON,LAT, such as 149.13,-35.28"
-        ) from None
-    return longitude, latitude
+app.command("run", epilog=slam_run.EXAMPLES)(slam_run.run)
+app.command("mrclam", epilog=slam_mrclam.EXAMPLES)(slam_mrclam.mrclam)
