@@ -35,6 +35,8 @@ class Figures:
         landmarks_true: all of them.
         landmarks_mapped: static landmarks in the map.
         wrong_merges: see ``IdentityScore``.
+        duplicates: likewise.
+        wrong_sightings_share: of the sightings, those attached to a landmark of another thing.
         robots_missing: robots that have a true path, but none in the map.
         seconds: that the map took.
     """
@@ -47,6 +49,8 @@ class Figures:
     landmarks_true: int | None
     landmarks_mapped: int
     wrong_merges: int | None
+    duplicates: int | None
+    wrong_sightings_share: float | None
     robots_missing: tuple[str, ...]
     seconds: float
 
@@ -86,6 +90,7 @@ def measure(make: Callable[[], SlamMap], mission: Mission) -> Result:
     found = make()
     seconds = time.perf_counter() - begun
     score = evaluate_slam(found, mission)
+    known = score.to_json()
     raw, aligned = _landmark_errors(found, mission)
     return Result(found, score, Figures(
         landmark_rmse_m=None if aligned is None else aligned.rmse,
@@ -95,7 +100,9 @@ def measure(make: Callable[[], SlamMap], mission: Mission) -> Result:
         landmarks_matched=score.matched,
         landmarks_true=score.landmarks_true,
         landmarks_mapped=score.landmarks_mapped,
-        wrong_merges=None if score.identities is None else score.identities.wrong_merges,
+        wrong_merges=known["wrong_merges"],
+        duplicates=known["duplicates"],
+            wrong_sightings_share=known["wrong_sightings_share"],
         robots_missing=score.robots_missing,
         seconds=round(seconds, 3),
     ))  # fmt: skip

@@ -20,6 +20,8 @@ FIGURES = {
     "landmarks_true",
     "landmarks_mapped",
     "wrong_merges",
+    "duplicates",
+    "wrong_sightings_share",
     "robots_missing",
     "seconds",
 }
@@ -44,7 +46,7 @@ def test_json_of_a_set_without_drift(run: Any, tmp_path: Path) -> None:
         assert 0 <= figures["ate_mean_m"] <= figures["ate_max_m"] < 1e-6
         assert figures["landmarks_matched"] == figures["landmarks_true"] == LANDMARKS
         assert figures["landmarks_mapped"] == LANDMARKS
-        assert figures["wrong_merges"] == 0
+        assert figures["wrong_merges"] == figures["duplicates"] == 0
         assert figures["robots_missing"] == []
         assert figures["seconds"] >= 0
 
@@ -87,8 +89,8 @@ def test_table_outputs_and_picture(run: Any, tmp_path: Path) -> None:
     )  # fmt: skip
     assert (done.code, done.err) == (0, f"doubt: {DOUBT}\n")
     rows = [line.split() for line in done.out.splitlines()]
-    assert ["SymboSLAM", *["0.000"] * 4, "8", "of", "8", "0", "0.0"] in rows
-    assert [row[0] for row in rows if row[-1:] and row[-3:-2] == ["8"]] == [
+    assert ["SymboSLAM", *["0.000"] * 4, "8", "of", "8", "0", "0", "0.0"] in rows
+    assert [row[0] for row in rows if row[-1:] and row[-4:-3] == ["8"]] == [
         "SymboSLAM",
         "dead",
         "the",

@@ -146,7 +146,16 @@ def _results(mission: Mission, progress: Progress) -> dict[str, Result]:
 
 
 def _table(results: dict[str, Result]) -> Table:
-    head = ("landmark RMSE m", "not aligned", "ATE mean m", "max", "matched", "wrong merges", "s")
+    head = (
+        "landmark RMSE m",
+        "not aligned",
+        "ATE mean m",
+        "max",
+        "matched",
+        "duplicates",
+        "wrong merges",
+        "s",
+    )
     shown = table("map", *head, title="Errors against the truth")
     for column in shown.columns[1:]:
         column.justify = "right"
@@ -163,9 +172,10 @@ def _table(results: dict[str, Result]) -> Table:
             if figures.landmarks_matched is None
             else f"{figures.landmarks_matched} of {figures.landmarks_true}"
         )
-        merges = "-" if figures.wrong_merges is None else str(figures.wrong_merges)
+        counts = (figures.duplicates, figures.wrong_merges)
+        mistakes = ["-" if value is None else str(value) for value in counts]
         numbers = ["-" if value is None else f"{value:.3f}" for value in metres]
-        shown.add_row(NAMES[name], *numbers, matched, merges, f"{figures.seconds:.1f}")
+        shown.add_row(NAMES[name], *numbers, matched, *mistakes, f"{figures.seconds:.1f}")
     return shown
 
 

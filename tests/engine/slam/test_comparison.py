@@ -30,7 +30,8 @@ def test_a_landmark_that_mixes_two_holds_both(
     assert holders(found, made) == {"a": 0, "b": 2, "c": 2}
     figures = measure(lambda: found, made).figures
     assert (figures.landmarks_matched, figures.landmarks_true) == (2, 4)
-    assert (figures.landmarks_mapped, figures.wrong_merges) == (3, 1)
+    assert (figures.landmarks_mapped, figures.wrong_merges, figures.duplicates) == (3, 1, 1)
+    assert figures.wrong_sightings_share == 2 / 8
     assert figures.landmark_rmse_raw_m == pytest.approx(np.sqrt((0 + 32 + 17) / 3))
     # the best alignment has (0, 0) and twice (4, 0) on (0, 0), (4, 0), (4, 3): see Umeyama
     best = np.inf
