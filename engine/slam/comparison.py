@@ -102,7 +102,7 @@ def measure(make: Callable[[], SlamMap], mission: Mission) -> Result:
         landmarks_mapped=score.landmarks_mapped,
         wrong_merges=known["wrong_merges"],
         duplicates=known["duplicates"],
-            wrong_sightings_share=known["wrong_sightings_share"],
+        wrong_sightings_share=known["wrong_sightings_share"],
         robots_missing=score.robots_missing,
         seconds=round(seconds, 3),
     ))  # fmt: skip
