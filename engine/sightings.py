@@ -68,6 +68,24 @@ class Sightings:
             self.names[seen.agent, name] = found.id
         return found
 
+    def put(self, landmark: Landmark) -> None:
+        """Make a landmark what it is said to be, whatever was observed of it before."""
+        self._leave(landmark.id)
+        row = self._table.put(landmark)
+        self._near.setdefault(self._place(landmark), set()).add(row)
+
+    def remove(self, identifier: str) -> bool:
+        """Remove a landmark; whether it was there."""
+        was_there = self._leave(identifier)
+        self._table.remove(identifier)
+        return was_there
+
+    def _leave(self, identifier: str) -> bool:
+        row = self._table.row_of(identifier)
+        if row is not None:
+            self._near[self._place(self._table[row])].discard(row)
+        return row is not None
+
     def _known(self, seen: Landmark, name: str) -> int | None:
         identifier = self.names.get((seen.agent, name)) if name and seen.agent else None
         row = None if identifier is None else self._table.row_of(identifier)

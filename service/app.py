@@ -20,8 +20,9 @@ from symboslam.service.database import check_database, lock_folder, open_databas
 from symboslam.service.examples import routes as examples
 from symboslam.service.lifecycle import Lifecycle
 from symboslam.service.limits import Limits, parse_rates
-from symboslam.service.maps import jobs, routes, segments
+from symboslam.service.maps import agents, jobs, routes, segments
 from symboslam.service.maps.jobs import Jobs
+from symboslam.service.maps.mailbox import Mailbox
 from symboslam.service.maps.maps import Maps
 from symboslam.service.maps.records import Records
 from symboslam.service.middleware import Accounts, Guard
@@ -51,7 +52,7 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
         if store is None:
             await asyncio.to_thread(check_database, settings.data)
         opened = store or open_store(settings)
-        locked = database = None
+        locked = database = letters = None
         app.state.store = opened
         app.state.metrics.watch(opened)
         try:
@@ -67,6 +68,8 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
                 app.state.maps = Maps(
                     Records(database), opened, settings.data / "ontologies", app.state.metrics
                 )
+                letters = open_database(settings.data)
+                app.state.mailbox = Mailbox(letters)
                 app.state.jobs = Jobs(app.state.maps, settings.data / "jobs")
                 await app.state.maps.start()
             except StoreError as error:
@@ -80,7 +83,7 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
             await opened.stop()
             if tokens := getattr(app.state, "tokens", None):
                 tokens.close()
-            for part in (database, locked):
+            for part in (database, letters, locked):
                 if part is not None:
                     part.close()
 
@@ -110,7 +113,7 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
         app.add_middleware(
             CORSMiddleware,
             allow_origins=list(settings.cors_origins),
-            allow_methods=["GET", "HEAD", "POST", "PUT", "DELETE"],
+            allow_methods=["GET", "HEAD", "POST", "PUT", "PATCH", "DELETE"],
             allow_headers=[
                 "Authorization", "Content-Type", "If-None-Match", "Last-Event-ID", "X-Request-ID",
             ],
@@ -125,8 +128,8 @@ def create_app(settings: Settings, store: Store | None = None) -> FastAPI:
     ):  # fmt: skip
         app.include_router(router)
     for router in (  # all that is under /v1
-        tokens_api.router, routes.router, segments.router, jobs.router, examples.router,
-        backup_api.router,
+        tokens_api.router, routes.router, segments.router, agents.router, jobs.router,
+        examples.router, backup_api.router,
     ):  # fmt: skip
         app.include_router(router, dependencies=[Depends(known_parameters)])
     return app

@@ -14,7 +14,7 @@ class Lifecycle:
     Attributes:
         draining: it stops soon, and says at ``/readyz`` that it takes no more.
         ending: it takes no more requests; those that run are waited for, event streams are not.
-        streams: the tasks that send event streams.
+        streams: the tasks that send event streams, or wait for what may never come.
     """
 
     def __init__(self) -> None:

@@ -67,7 +67,7 @@ _DETAILS = {
 _ALWAYS = (429, 500, 503)
 _AUTHORISED = (401, 403)
 _WITH_BODY = (400, 408, 413, 415, 422)
-_METHODS = ("get", "put", "post", "delete")
+_METHODS = ("get", "put", "post", "patch", "delete")
 
 
 def install(app: FastAPI, *, public_read: bool) -> None:

@@ -1,1 +1,1 @@
-"""Map building: from what robots drove and saw to one landmark map, without an oracle (design 7)."""
+"""Map building: what robots drove and saw -> one map of landmarks, without an oracle."""

@@ -1,16 +1,22 @@
-"""EdgeIncrement: what is new in a robot's pose graph, as an edge agent sends it to the control agent."""
+"""EdgeIncrement: what is new in a robot's pose graph; edge agents send it to the control agent."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from symboslam.engine.readers.checks import LONGEST_ID, UNWRITABLE
 from symboslam.engine.slam.log import Floats, Ints, Pose
 from symboslam.errors import InputError
+
+_FARTHEST = 1e9
+"""Metres and seconds; nothing reaches farther."""
+_MOST = 2**53
+"""Numbers below it are exact in every JSON reader."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +73,17 @@ class EdgeIncrement:
 
     def to_json(self) -> dict[str, Any]:
         """As JSON values; NaN is written as null."""
-        raise NotImplementedError
+        found: dict[str, Any] = {}
+        for each in fields(self):
+            value = getattr(self, each.name)
+            if isinstance(value, np.ndarray):
+                value = value.tolist()
+            elif isinstance(value, tuple):
+                value = [float(v) for v in value]
+            found[each.name] = value
+        for name in ("range", "bearing"):
+            found[name] = [None if v != v else v for v in found[name]]
+        return found
 
     @classmethod
     def from_json(cls, value: Mapping[str, Any]) -> EdgeIncrement:
@@ -76,4 +92,169 @@ class EdgeIncrement:
         Raises:
             InputError: not an increment; the message says what is wrong.
         """
-        raise InputError("not written yet")
+        known = [each.name for each in fields(cls)]
+        for name in value:
+            if name not in known:
+                raise InputError(f"it has a member {name[:40]!r} that no increment has")
+        for name in known:
+            if name not in value:
+                raise InputError(f"it has no {name}")
+        columns: dict[str, Any] = {}
+        for names, read in _COLUMNS:
+            columns |= {name: read(value, name) for name in names}
+        found = cls(
+            robot=_name(value, "robot"),
+            run=_name(value, "run"),
+            sequence=_count(value, "sequence"),
+            start=None if value["start"] is None else _pose(value, "start"),
+            start_sigma=_pose(value, "start_sigma"),
+            first=_count(value, "first"),
+            last=_truth(value, "last"),
+            **columns,
+        )
+        found.check()
+        return found
+
+    def check(self) -> None:
+        """Whether the columns make sense together.
+
+        Raises:
+            InputError: they do not; says which, and where.
+        """
+        for number, names in (
+            (len(self.time), ("time", "step", "sigma")),
+            (len(self.row), (
+                "row", "pose", "range", "bearing", "sigma_range", "sigma_bearing", "feature",
+                "confidence", "key", "track",
+            )),
+            (len(self.fix_pose), ("fix_pose", "fix")),
+        ):  # fmt: skip
+            for name in names:
+                if len(getattr(self, name)) != number:
+                    raise InputError(
+                        f"{name} has {len(getattr(self, name))} rows, {names[0]} has {number}"
+                    )
+        begins = self.first == 0 and len(self.sigma) > 0  # nothing leads to the very first pose
+        spread = self.sigma[1:] if begins else self.sigma
+        poses = self.first + len(self.time)
+        _all(np.array(self.start_sigma) > 0, "start_sigma", "not above 0")
+        _all(np.diff(self.time) > 0, "time", "not after the one before", 1)
+        _all((spread > 0).all(1), "sigma", "not above 0", int(begins))
+        _all((self.sigma >= 0).all(1), "sigma", "below 0")
+        _all(self.row >= 0, "row", "below 0")
+        if len(np.unique(self.row)) < len(self.row):
+            raise InputError("row has a number twice")
+        for name in ("pose", "fix_pose"):
+            number = getattr(self, name)
+            _all((number >= 0) & (number < poses), name, f"not the number of a pose below {poses}")
+        _all(~(self.range < 0), "range", "below 0")
+        for name in ("sigma_range", "sigma_bearing"):
+            _all(getattr(self, name) > 0, name, "not above 0")
+        _all(self.fix[:, 2] > 0, "fix", "of a deviation that is not above 0")
+        _all((self.confidence > 0) & (self.confidence <= 1), "confidence", "not in (0, 1]")
+        _all(self.track >= -1, "track", "below -1")
+
+
+def _all(right: ArrayLike, name: str, problem: str, offset: int = 0) -> None:
+    valid = np.asarray(right, np.bool_)
+    if not valid.all():
+        raise InputError(f"{name}: row {int(np.argmin(valid)) + offset} is {problem}")
+
+
+def _text(value: object, name: str) -> str:
+    if not isinstance(value, str) or len(value) > LONGEST_ID or UNWRITABLE.search(value):
+        raise InputError(f"{name} is no text of at most {LONGEST_ID} characters")
+    return value
+
+
+def _name(value: Mapping[str, Any], name: str) -> str:
+    found = _text(value[name], name)
+    if not found or not found.isprintable():
+        raise InputError(f"{name} is empty, or has characters that do not print")
+    return found
+
+
+def _is_number(value: object) -> bool:
+    return type(value) in (int, float) and abs(value) <= _FARTHEST  # type: ignore[arg-type]
+
+
+def _is_whole(value: object) -> bool:
+    return type(value) is int and abs(value) < _MOST
+
+
+def _count(value: Mapping[str, Any], name: str) -> int:
+    found = value[name]
+    if not _is_whole(found) or found < 0:
+        raise InputError(f"{name} is no whole number from 0 on")
+    return int(found)
+
+
+def _truth(value: Mapping[str, Any], name: str) -> bool:
+    found = value[name]
+    if not isinstance(found, bool):
+        raise InputError(f"{name} is neither true nor false")
+    return found
+
+
+def _list(value: Mapping[str, Any], name: str) -> list[Any]:
+    found = value[name]
+    if not isinstance(found, list):
+        raise InputError(f"{name} is no list")
+    return found
+
+
+def _pose(value: Mapping[str, Any], name: str) -> Pose:
+    found = _list(value, name)
+    if len(found) != 3 or not all(map(_is_number, found)):
+        raise InputError(f"{name} is not three numbers")
+    x, y, heading = map(float, found)
+    return x, y, heading
+
+
+def _numbers(value: Mapping[str, Any], name: str) -> Floats:
+    found = _list(value, name)
+    for row, each in enumerate(found):
+        if not _is_number(each):
+            raise InputError(f"{name}: row {row} is no finite number")
+    return np.array(found, np.float64)
+
+
+def _numbers_or_nothing(value: Mapping[str, Any], name: str) -> Floats:
+    found = _list(value, name)
+    for row, each in enumerate(found):
+        if each is not None and not _is_number(each):
+            raise InputError(f"{name}: row {row} is neither a finite number nor null")
+    return np.array([np.nan if each is None else each for each in found], np.float64)
+
+
+def _triples(value: Mapping[str, Any], name: str) -> Floats:
+    found = _list(value, name)
+    for row, each in enumerate(found):
+        if not isinstance(each, list) or len(each) != 3 or not all(map(_is_number, each)):
+            raise InputError(f"{name}: row {row} is not three finite numbers")
+    return np.array(found, np.float64).reshape(-1, 3)
+
+
+def _whole(value: Mapping[str, Any], name: str) -> Ints:
+    found = _list(value, name)
+    for row, each in enumerate(found):
+        if not _is_whole(each):
+            raise InputError(f"{name}: row {row} is no whole number")
+    return np.array(found, np.int64)
+
+
+def _texts(value: Mapping[str, Any], name: str) -> NDArray[np.object_]:
+    found = _list(value, name)
+    column = np.empty(len(found), object)
+    column[:] = [_text(each, f"{name}: row {row}") for row, each in enumerate(found)]
+    return column
+
+
+_COLUMNS: tuple[tuple[tuple[str, ...], Callable[[Mapping[str, Any], str], Any]], ...] = (
+    (("time", "sigma_range", "sigma_bearing", "confidence"), _numbers),
+    (("range", "bearing"), _numbers_or_nothing),
+    (("step", "sigma", "fix"), _triples),
+    (("row", "pose", "track", "fix_pose"), _whole),
+    (("feature", "key"), _texts),
+)
+"""How each column is read."""

@@ -90,9 +90,15 @@ class Measurements:
 
     def take(self, index: NDArray[np.bool_] | Ints) -> Measurements:
         """The rows at ``index``."""
-        columns = (self.time, self.range, self.bearing, self.feature, self.confidence, self.key)
         return Measurements(
-            *(column[index] for column in columns), self.sigma_range, self.sigma_bearing
+            self.time[index],
+            self.range[index],
+            self.bearing[index],
+            self.feature[index],
+            self.confidence[index],
+            self.key[index],
+            sigma_range=self.sigma_range,
+            sigma_bearing=self.sigma_bearing,
         )
 
 

@@ -112,6 +112,10 @@ class MapInfo(BaseModel):
         " box around the map."
     )
     crs: str
+    origin: list[float] | None = Field(
+        description="Longitude and latitude of the origin of the map's metres, which point east"
+        " and north; null in a map of local metres, where coordinates are metres."
+    )
     created: datetime
     changed: datetime
     revision: int = Field(description="How often it changed.")

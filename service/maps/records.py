@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import json
 import sqlite3
-import threading
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from symboslam.engine.sightings import Name
 from symboslam.engine.table import Landmark
-from symboslam.errors import StoreError
+from symboslam.service.maps.tables import Tables
 
 _TABLES = """
 CREATE TABLE IF NOT EXISTS map (
@@ -100,7 +98,7 @@ class Override:
     snapshot: str = ""
 
 
-class Records:
+class Records(Tables):
     """Maps, landmarks, batches and overrides; any thread may call.
 
     Args:
@@ -111,9 +109,8 @@ class Records:
     """
 
     def __init__(self, database: sqlite3.Connection) -> None:
-        self._database, self._lock = database, threading.Lock()
+        super().__init__(database, _TABLES)
         with self._errors():
-            self._database.executescript(_TABLES)
             columns = self._database.execute("SELECT name FROM pragma_table_info('map')")
             if ("absence",) not in columns.fetchall():  # made before there was this column
                 self._database.execute("ALTER TABLE map ADD COLUMN absence REAL")
@@ -141,7 +138,7 @@ class Records:
         """The landmarks of a map: IRI of their feature, and everything else."""
         columns = "feature, id, x, y, confidence, time, agent, count, weight"
         for row in self._all(
-            f"SELECT {columns} FROM landmark WHERE map = ? ORDER BY number", identifier
+            f"SELECT {columns} FROM landmark WHERE map = ? ORDER BY number, id", identifier
         ):
             yield row[0], dict(zip(columns.split(", ")[1:], row[1:], strict=True))
 
@@ -196,6 +193,7 @@ class Records:
         landmarks: Iterable[Row],
         names: Iterable[tuple[Name, str]],
         batches: Iterable[tuple[str, str, dict[str, Any]]],
+        removed: Iterable[str] = (),
     ) -> None:
         """Keep what batches did to a map: all of it or nothing.
 
@@ -204,9 +202,13 @@ class Records:
             landmarks: those that changed.
             names: what agents call them.
             batches: id, digest and result of each.
+            removed: ids of those that are gone.
         """
         i = record.id
         with self._transaction() as database:
+            database.executemany(
+                "DELETE FROM landmark WHERE map = ? AND id = ?", ((i, gone) for gone in removed)
+            )
             _put(database, i, landmarks)
             database.executemany(
                 "INSERT OR REPLACE INTO name VALUES (?, ?, ?, ?)",
@@ -245,28 +247,6 @@ class Records:
                 "UPDATE map SET stated = ?, absence = ? WHERE id = ?",
                 (revision, absence, identifier),
             )
-
-    def _all(self, query: str, *values: str) -> list[tuple[Any, ...]]:
-        with self._errors(), self._lock:
-            return self._database.execute(query, values).fetchall()
-
-    @contextmanager
-    def _transaction(self) -> Iterator[sqlite3.Connection]:
-        with self._errors(), self._lock:
-            self._database.execute("BEGIN IMMEDIATE")
-            try:
-                yield self._database
-                self._database.execute("COMMIT")
-            except BaseException:
-                self._database.rollback()
-                raise
-
-    @contextmanager
-    def _errors(self) -> Iterator[None]:
-        try:
-            yield
-        except sqlite3.Error as error:
-            raise StoreError(f"the records cannot be read or written: {error}") from error
 
 
 def _put(database: sqlite3.Connection, identifier: str, landmarks: Iterable[Row]) -> None:

@@ -197,14 +197,19 @@ async def info(running: RunningMap, maps: Maps) -> MapInfo:
     record = running.record
     batches = await asyncio.to_thread(maps.records.batches, record.id)
     here = f"/v1/maps/{record.id}"
-    names = ("landmarks", "segments", "observations", "overrides", "events", "export")
+    names = (
+        "landmarks", "segments", "observations", "increments", "robots", "overrides", "events",
+        "export",
+    )  # fmt: skip
     content = Content(running.live.described([]))
+    frame = running.live.area.frame
     return MapInfo(
         id=record.id,
         name=record.name,
         iri=f"{base_of(record.id)}map",
         bbox=record.options.get("bbox") or list(content.bbox),
         crs=running.live.area.frame.name,
+        origin=list(frame.origin) if frame.geographic else None,
         created=datetime.fromisoformat(record.created),
         changed=datetime.fromisoformat(record.changed),
         revision=record.revision,

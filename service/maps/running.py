@@ -25,6 +25,7 @@ from symboslam.reasoning.knowledge import Knowledge
 from symboslam.service.maps.events import Events
 from symboslam.service.maps.observations import Observations, notes_on_ids
 from symboslam.service.maps.records import MapRecord, Override, Records
+from symboslam.service.maps.setting import Setting
 from symboslam.service.maps.statements import GRAPHS, Statements
 from symboslam.service.metrics import Metrics
 from symboslam.service.store._base import BusyError, Document, MissingGraphError, Store
@@ -49,13 +50,13 @@ class Waiting:
     Attributes:
         id: its identifier; the same is taken once.
         digest: of its content.
-        observations: what is in it.
+        observations: what is in it: observations to be merged, or landmarks to be set.
         done: its result, when it can be seen by SPARQL.
     """
 
     id: str
     digest: str
-    observations: Observations
+    observations: Observations | Setting
     done: asyncio.Future[dict[str, Any]] = field(repr=False)
 
 
@@ -120,7 +121,9 @@ class RunningMap:
                 ended = datetime.fromisoformat(self.record.changed)
                 await asyncio.to_thread(self._statements.everything, ended, overrides)
 
-    async def take(self, batch: str, digest: str, observations: Observations) -> dict[str, Any]:
+    async def take(
+        self, batch: str, digest: str, observations: Observations | Setting
+    ) -> dict[str, Any]:
         """Take a batch; it can be seen by SPARQL when this returns.
 
         Raises:
@@ -232,7 +235,11 @@ class RunningMap:
         for each in group:
             known = taken.get(each.id) or self._records.batch(record.id, each.id)
             if known is None:
-                result = self._observe(each, record, names)
+                found = each.observations
+                if isinstance(found, Setting):
+                    result = self._set(each.id, found, record)
+                else:
+                    result = self._observe(each.id, found, record, names)
                 known = taken[each.id] = each.digest, result
             results[each.id, each.digest] = (
                 known[1] if known[0] == each.digest else BatchConflictError(each.id)
@@ -251,13 +258,15 @@ class RunningMap:
             ),
             names.items(),
             ((batch, digest, result) for batch, (digest, result) in taken.items()),
+            (name for name, (_, after) in change.landmarks.items() if after is None),
         )
         self.record = record
         return results, change
 
-    def _observe(self, batch: Waiting, record: MapRecord, names: dict[Name, str]) -> dict[str, Any]:
+    def _observe(
+        self, batch: str, found: Observations, record: MapRecord, names: dict[Name, str]
+    ) -> dict[str, Any]:
         """Merge one batch; its result."""
-        found = batch.observations
         new = 0
         for seen, name in found.landmarks:
             landmark = self._sightings.observe(seen, name)
@@ -266,18 +275,33 @@ class RunningMap:
                 names[seen.agent, name] = landmark.id
         add_left_out(record.left_out, found.report)
         return {
-            "batch": batch.id,
+            "batch": batch,
             "received": found.received,
             "new": new,
             "merged": len(found.landmarks) - new,
-            "left_out": {
-                "outside": found.report.outside,
-                "unknown": dict(found.report.unknown.most_common(_MOST_UNKNOWN)),
-            },
+            "left_out": _left_out(found.report),
             "notes": [
                 *found.report.notes,
                 *notes_on_ids(found.landmarks, record.options["merge_radius"]),
             ],
+            "revision": record.revision,
+        }
+
+    def _set(self, batch: str, found: Setting, record: MapRecord) -> dict[str, Any]:
+        """Set the landmarks of one batch; its result."""
+        removed = sum(map(self._sightings.remove, found.removed))
+        new = sum(each.id not in self.live.table for each in found.landmarks)
+        for landmark in found.landmarks:
+            self._sightings.put(landmark)
+        add_left_out(record.left_out, found.report)
+        return {
+            "batch": batch,
+            "received": found.received,
+            "new": new,
+            "changed": len(found.landmarks) - new,
+            "removed": removed,
+            "left_out": _left_out(found.report),
+            "notes": list(found.report.notes),
             "revision": record.revision,
         }
 
@@ -335,6 +359,13 @@ def add_left_out(counts: Counter[str], report: ReadReport) -> None:
         counts[f"{UNKNOWN}{OTHERS}" if full else key] += number
     if report.outside:
         counts[OUTSIDE] += report.outside
+
+
+def _left_out(report: ReadReport) -> dict[str, Any]:
+    return {
+        "outside": report.outside,
+        "unknown": dict(report.unknown.most_common(_MOST_UNKNOWN)),
+    }
 
 
 def report_of(record: MapRecord) -> ReadReport:

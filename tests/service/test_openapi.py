@@ -20,9 +20,10 @@ LANDMARKS = "\n".join(
     for i, kind in enumerate(["House", "Factory", "BusStop", "Tree"])
 )
 # Where a schema cannot say all, valid data may be refused: the grammar of SPARQL and of the graph
-# formats, the order of a box, names of coordinate systems and ontologies, times to come, names
-# that print, features and environments that are known, parameters for queries or updates only,
-# media types that agree with a parameter, files with nothing in them.
+# formats, columns that are equally long, ids that are there once, the order of a box, names of
+# coordinate systems and ontologies, times to come, names that print, features and environments that
+# are known, parameters for queries or updates only, media types that agree with a parameter, files
+# with nothing in them.
 NOT_ALL_SAID = {
     "GET /sparql": "400",
     "POST /sparql": "400",
@@ -32,6 +33,8 @@ NOT_ALL_SAID = {
     "POST /v1/tokens": "422",
     "POST /v1/jobs": "415, 422",
     "POST /v1/maps/{map_id}/observations": "422",
+    "POST /v1/maps/{map_id}/increments": "422",
+    "PATCH /v1/maps/{map_id}/landmarks": "422",
     "GET /v1/maps/{map_id}/landmarks": "422",
     "GET /v1/maps/{map_id}/segments/{segment}/explanation": "422",
     "PUT /v1/maps/{map_id}/segments/{segment}/override": "422",
@@ -101,6 +104,8 @@ def test_bodies_have_their_media_types(document: Any) -> None:
     assert "application/sparql-update" in body("post", "/sparql")
     assert "multipart/form-data" in body("post", "/graphs")
     assert answer("get", f"{here}/events") == {"text/event-stream"}
+    assert body("post", f"{here}/increments") == {"application/json", "application/x-ndjson"}
+    assert answer("get", f"{here}/increments") == {"application/x-ndjson"}
     assert answer("get", f"{here}/landmarks") == {"application/geo+json"}
     assert "text/plain" in answer("get", f"{here}/segments/{{segment}}/explanation")
     assert {"text/csv", "text/turtle"} <= answer("get", "/sparql")
@@ -123,6 +128,14 @@ def test_the_examples_of_observations_are_taken(described: Service, document: An
     )
     result = response.json()
     assert (result["received"], result["new"], result["merged"]) == (2, 1, 1)
+
+
+def test_the_example_of_increments_is_taken(described: Service, document: Any) -> None:
+    operation = document["paths"]["/v1/maps/{map_id}/increments"]["post"]
+    example = operation["requestBody"]["content"]["application/json"]["examples"]["drive"]["value"]
+    made = described.client.post("/v1/maps", json=AREA, headers=ADMIN).json()
+    url = f"/v1/maps/{made['id']}/increments"
+    assert described.client.post(url, json=example, headers=ADMIN).status_code == 201
 
 
 def config(service: Service, token: bool) -> str:
@@ -158,10 +171,14 @@ def config(service: Service, token: bool) -> str:
             "[operations.checks.negative_data_rejection]",
             f"expected-statuses = {json.dumps(REFUSED.split(', '))}",
         ]  # fmt: skip
-    # A stream does not end; and a map would be gone for all others.
+    # A stream does not end, nobody waits for half a minute, a map would be gone for all.
     lines += [
         "[[operations]]", 'include-name = "GET /v1/maps/{map_id}/events"',
         "request-timeout = 1",
+    ]  # fmt: skip
+    lines += [
+        "[[operations]]", 'include-name = "GET /v1/maps/{map_id}/increments"',
+        'parameters = { "query.wait" = 0.1 }',
     ]  # fmt: skip
     lines += [
         "[[operations]]", 'include-name = "DELETE /v1/maps/{map_id}"',
@@ -189,7 +206,7 @@ def schemathesis(service: Service, folder: Path, examples: int, token: bool) -> 
         cwd=ROOT, capture_output=True, text=True, env={**os.environ, "NO_COLOR": "1"}, check=False,
     )  # fmt: skip
     assert found.returncode == 0, found.stdout + found.stderr
-    assert "Operations:       31 selected" in found.stdout, found.stdout
+    assert "Operations:       35 selected" in found.stdout, found.stdout
     assert "FAILURES" not in found.stdout
     assert service.client.get("/readyz").status_code == 200
 

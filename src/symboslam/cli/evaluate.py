@@ -70,6 +70,7 @@ def evaluate(
     """Score maps against a truth: F1, IoU, average precision, kappa, confusion matrix.
 
     Truth and map are compared cell by cell on one grid; docs/evaluate.md defines every figure.
+    Paths and landmarks of robots are scored by [bold]symboslam evaluate slam[/].
     """
     from symboslam.engine.evaluation import evaluate_pairs, write_report
     from symboslam.engine.evaluation.reports import format_of, json_report

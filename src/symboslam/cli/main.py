@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import os
 import sys
+from typing import Any
 
 import typer
+from typer.core import TyperGroup
 
 from symboslam.cli import (
+    agent,
     classify,
     cq,
     evaluate,
+    evaluate_slam,
     explain,
     ontology,
     pitfalls,
@@ -18,6 +22,7 @@ from symboslam.cli import (
     query,
     serve,
     show,
+    slam,
     store,
     token,
     validate,
@@ -25,7 +30,23 @@ from symboslam.cli import (
 )
 from symboslam.errors import SymboSlamError
 
+
+class Commands(TyperGroup):
+    """Commands of which some have names of two words, such as ``evaluate slam``.
+
+    A group could not do that: ``evaluate`` is a command and takes files.
+    """
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        """Take two words for a command if there is one, else one word as ever."""
+        name = " ".join(args[:2])
+        if len(args) > 1 and name in self.commands:
+            return name, self.commands[name], args[2:]
+        return super().resolve_command(ctx, args)
+
+
 app = typer.Typer(
+    cls=Commands,
     name="symboslam",
     no_args_is_help=True,
     rich_markup_mode="rich",
@@ -38,6 +59,7 @@ app = typer.Typer(
 app.command("classify", epilog=classify.EXAMPLES)(classify.classify)
 app.command("explain", epilog=explain.EXAMPLES)(explain.explain)
 app.command("evaluate", epilog=evaluate.EXAMPLES)(evaluate.evaluate)
+app.command("evaluate slam", epilog=evaluate_slam.EXAMPLES)(evaluate_slam.evaluate_slam)
 app.command("feature", epilog=show.FEATURE_EXAMPLES)(show.feature)
 app.command("environments")(show.environments)
 app.command("sample")(show.sample)
@@ -47,10 +69,12 @@ app.command("serve", epilog=serve.EXAMPLES)(serve.serve)
 app.command("query", epilog=query.EXAMPLES)(query.query)
 app.command("push", epilog=push.EXAMPLES)(push.push)
 app.command("why", epilog=why.EXAMPLES)(why.why)
+app.add_typer(agent.app, name="agent")
 app.add_typer(ontology.app, name="ontology")
 app.add_typer(cq.app, name="cq")
 app.add_typer(token.app, name="token")
 app.add_typer(store.app, name="store")
+app.add_typer(slam.app, name="slam")
 
 
 def _version(wanted: bool) -> None:

@@ -1,0 +1,1 @@
+"""Robots and their simulation: agents and what carries their words; meets the service by HTTP."""
