@@ -12,7 +12,7 @@ from symboslam.engine.slam.planar import between, wrap
 
 MISFITS = 0.15
 """Share of a robot's sightings beyond four standard deviations, from which it is doubted."""
-UNMET = 0.5
+UNMET = 0.3
 """Share of robots seen that are where no robot is, from which a robot is doubted."""
 LOST = 0.15
 """Share of a robot's sightings that are of nothing seen again, from which it is doubted."""
@@ -22,18 +22,20 @@ BENT = 12.0
 """Mean squared residual of odometry, in standard deviations, from which a robot is doubted."""
 
 
-def doubts(graph: JointGraph, edges: list[EdgeMap]) -> list[str]:
-    """Why a map should not be trusted, one sentence each.
+def doubts(graph: JointGraph, edges: list[EdgeMap]) -> list[list[str]]:
+    """For each robot why the map should not be trusted, one sentence each.
 
     A bent map shows in sightings that do not fit their landmarks, in odometry that is worse than
     it says it is, and in robots seen where none is.
     """
-    said = []
+    every = []
     fits = misfits(graph)
     met = {number: 0 for number in range(len(graph.members))}
     for number, *_ in graph.meetings:
         met[number] += 1
     for number, (member, edge) in enumerate(zip(graph.members, edges, strict=True)):
+        said: list[str] = []
+        every.append(said)
         if edge.trouble:
             said.append(f"{member.name}: its own map could not be kept up to date: {edge.trouble}")
         share, total = fits[number]
@@ -60,7 +62,7 @@ def doubts(graph: JointGraph, edges: list[EdgeMap]) -> list[str]:
                 f"{member.name}: of {robots} robots that it saw, only {met[number]} are where "
                 f"a robot is"
             )
-    return said
+    return every
 
 
 def misfits(graph: JointGraph) -> list[tuple[float, int]]:

@@ -1,38 +1,25 @@
 """CollectiveMap: the control agent's map, made of what edge agents send (design 7).
 
-Each run keeps its own edge map. To solve, all are put into one joint graph; landmarks of different
-visits and of different robots are merged by what lies within covariances and by constellations,
-round after round, until nothing changes. Robots that do not know where they began are placed by
-what they saw.
+Each run keeps its own edge map, which follows what comes, in whatever order. To solve, all are
+joined in one graph.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from symboslam.engine.slam.association import Association
-from symboslam.engine.slam.beliefs import ClassBeliefs
-from symboslam.engine.slam.consistency import doubts
-from symboslam.engine.slam.edge_map import EdgeMap
 from symboslam.engine.slam.increment import EdgeIncrement
-from symboslam.engine.slam.joint import JointGraph, Member
+from symboslam.engine.slam.joining import Joining, Progress
 from symboslam.engine.slam.key_poses import KeyPoses, replay
 from symboslam.engine.slam.log import Floats, RobotLog
-from symboslam.engine.slam.meetings import find_meetings
 from symboslam.engine.slam.outcome import outcome
-from symboslam.engine.slam.placing import place_lost
 from symboslam.engine.slam.run import Run
-from symboslam.engine.slam.scale import Scale
 from symboslam.engine.slam.settings import SlamSettings
 from symboslam.engine.slam.slam_map import SlamMap
-
-Progress = Callable[[str, float], None]
-"""Is told what is done, and which share of it."""
-
 
 def _silent(what: str, share: float) -> None:
     pass
@@ -107,19 +94,20 @@ class CollectiveMap:
             edge = run.edge_map(last=run.finished)
             if edge is not None:
                 edges.append(edge)
-        graph, placed, lost, scale = self._joined(runs, edges, progress)
+        joining = Joining(runs, edges, self._similarity, self._settings, progress)
+        joining.join()
         progress("done", 1.0)
-        said = doubts(graph, [edges[n] for n in placed]) if graph.members else []
-        for n in lost:
+        said = [sentence for each in joining.doubts.values() for sentence in each]
+        for n in joining.lost:
             said.append(f"{runs[n].name} could not be placed: it does not know where it began")
         notes = self.notes
-        for run, edge in zip(runs, edges, strict=True):
+        for run, edge in zip(runs, joining.edges, strict=True):
             if edge.outliers:
                 notes.append(
                     f"{run.name}: things seen only once, where others are seen often, left out: "
                     f"{edge.outliers}"
                 )
-        return outcome(graph, runs, edges, placed, self._dynamic, self._similarity, said, notes)
+        return outcome(joining, self._dynamic, self._similarity, said, notes)
 
     def _run(self, robot: str, run: str) -> Run:
         found = self._runs.get((robot, run))
@@ -131,75 +119,3 @@ class CollectiveMap:
             found = Run(name, self._classes, self._dynamic, self._similarity, self._settings)
             self._runs[robot, run] = found
         return found
-
-    def _joined(
-        self, runs: list[Run], edges: list[EdgeMap], progress: Progress
-    ) -> tuple[JointGraph, list[int], list[int], Scale]:
-        """One graph of all robots that can be placed, solved; who is in it and who is not."""
-        labels: dict[tuple[int, int], int] = {}
-        members = [
-            run.member(edge, n, labels) for n, (run, edge) in enumerate(zip(runs, edges, strict=True))
-        ]
-        named: dict[str, int] = {}
-        for member in members:
-            for piece in member.pieces:
-                if piece.track.key:
-                    piece.label = named.setdefault(piece.track.key, piece.label)
-        known = [n for n, run in enumerate(runs) if run.start is not None or run.graph.fixes]
-        if not known and members:
-            known = [0]
-            members[0].start_sigma = (0.01, 0.01, 0.001)
-        placed = list(known)
-        scale = _scale_of(edges)
-        beliefs = ClassBeliefs(self._similarity)
-        graph = self._solved([members[n] for n in placed], scale, beliefs, progress)
-        waiting = [n for n in range(len(runs)) if n not in known]
-        while waiting:
-            found = place_lost(graph, [members[n] for n in waiting], beliefs, scale)
-            if found is None:
-                break
-            index, poses = found
-            number = waiting.pop(index)
-            members[number].put(poses)
-            placed.append(number)
-            graph = self._solved([members[n] for n in placed], scale, beliefs, progress)
-        return graph, placed, waiting, scale
-
-    def _solved(
-        self, members: list[Member], scale: Scale, beliefs: ClassBeliefs, progress: Progress
-    ) -> JointGraph:
-        """Robots in one frame, merged round by round."""
-        settings = self._settings
-        graph = JointGraph(members, settings, scale.spacing(sum(len(m.graph) for m in members)))
-        for number, member in enumerate(members):
-            for piece in member.pieces:
-                piece.member = number
-                piece.times = {(number, time) for _, time in piece.times}
-        if not members:
-            return graph
-        far = True
-        for turn in range(settings.rounds):
-            progress("merging", turn / settings.rounds)
-            if far:
-                graph.solve(0)
-            find_meetings(graph)
-            graph.solve(settings.kernel)
-            if not graph.labels():
-                break
-            graph.marginals()
-            association = Association(graph, beliefs, scale)
-            changed = association.merge_near()
-            merged, far = association.constellations()
-            if not merged:
-                changed += association.move()
-            if changed + merged <= turn // 4:
-                break
-        return graph
-
-
-def _scale_of(edges: list[EdgeMap]) -> Scale:
-    """The scale of what all robots saw."""
-    scale = Scale()
-    for edge in edges:
-        scale.include(edge.scale)
-    return scale

@@ -9,6 +9,8 @@ their covariances are joined.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import gtsam
 import numpy as np
@@ -25,6 +27,23 @@ from symboslam.engine.slam.settings import SlamSettings
 from symboslam.engine.slam.tracks import Track, Tracker
 
 
+@dataclass(frozen=True)
+class Known:
+    """A landmark that others have mapped.
+
+    Attributes:
+        xy: (2,) metres.
+        covariance: (2, 2) of that.
+        evidence: (C,) summed log likelihoods of its class.
+        name: what names it beyond doubt; "" for none.
+    """
+
+    xy: Floats
+    covariance: Floats
+    evidence: Floats
+    name: str = ""
+
+
 class EdgeMap:
     """The map of one robot.
 
@@ -35,6 +54,7 @@ class EdgeMap:
         start: where it began.
         start_sigma: standard deviations of that.
         settings: of map building.
+        known: landmarks that others have mapped; they get the first numbers.
 
     Attributes:
         tracker: its tracks.
@@ -52,6 +72,7 @@ class EdgeMap:
         start: Pose,
         start_sigma: Pose,
         settings: SlamSettings,
+        known: Sequence[Known] = (),
     ) -> None:
         self.graph, self.beliefs, self.settings = graph, beliefs, settings
         self.scale = Scale()
@@ -74,6 +95,19 @@ class EdgeMap:
         self._named: dict[str, int] = {}
         self._open: list[Track] = []
         self._done = self._poses = self._sightings = self._fixes = 0
+        for landmark in known:
+            self._take_known(landmark)
+
+    def _take_known(self, known: Known) -> None:
+        number = len(self._xy)
+        key = factors.landmark_key(number)
+        self._values.insert(key, known.xy)
+        factors.add_known(self._factors, key, known.xy, known.covariance)
+        self._xy = np.vstack([self._xy, known.xy])
+        self._evidence.append(known.evidence)
+        self._frames[number] = set()
+        if known.name:
+            self._named[known.name] = number
 
     def follow(self, last: bool = False) -> None:
         """Take over what is new in the pose graph; with ``last`` decide on every track."""

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from symboslam.engine.slam.control import CollectiveMap, Progress
+from symboslam.engine.slam.control import CollectiveMap
+from symboslam.engine.slam.joining import Progress
 from symboslam.engine.slam.log import Mission
 from symboslam.engine.slam.settings import SlamSettings
 from symboslam.engine.slam.slam_map import SlamMap

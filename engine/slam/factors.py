@@ -74,6 +74,12 @@ def add_landmark(graph: Graph, key: int, xy: Floats, sigma: float) -> None:
     graph.add(gtsam.PriorFactorPoint2(key, np.asarray(xy, float), _plain(sigma, sigma)))
 
 
+def add_known(graph: Graph, key: int, xy: Floats, covariance: Floats) -> None:
+    """Where a landmark is that others have mapped."""
+    noise = gtsam.noiseModel.Gaussian.Covariance(np.asarray(covariance, float))
+    graph.add(gtsam.PriorFactorPoint2(key, np.asarray(xy, float), noise))
+
+
 def add_same(graph: Graph, one: int, other: int, sigma: float) -> None:
     """That two landmarks are one."""
     graph.add(gtsam.BetweenFactorPoint2(one, other, np.zeros(2), _plain(sigma, sigma)))

@@ -37,6 +37,7 @@ class Member:
         start_sigma: standard deviations of the first pose; None if that is not known.
         pieces: its tracks.
         closures: relative poses from outside, if any.
+        parts: sightings with a range or a bearing alone, with their label.
         scale: by which its odometry is to be multiplied.
         turn: radians a metre to be added to its odometry.
     """
@@ -47,6 +48,7 @@ class Member:
     start_sigma: tuple[float, float, float] | None
     pieces: list[Piece]
     closures: Closures | None = None
+    parts: list[tuple[Sighting, int]] = field(default_factory=list)
     scale: float = 1.0
     turn: float = 0.0
 
@@ -63,6 +65,12 @@ class Member:
         steps[:, 2] += self.turn * np.hypot(steps[:, 0], steps[:, 1])
         steps[:, :2] *= self.scale
         return steps
+
+    def renumber(self, number: int) -> None:
+        """Make the robot member ``number`` of a graph."""
+        for piece in self.pieces:
+            piece.member = number
+            piece.times = {(number, time) for _, time in piece.times}
 
     def put(self, poses: Floats) -> None:
         """Put the robot somewhere else, without knowing where it began."""
@@ -159,7 +167,7 @@ class JointGraph:
         for label, told in sums.items():
             self.xy[label] = told[:2] / told[2]
 
-    def solve(self, width: float, iterations: int = 20) -> float:
+    def solve(self, width: float, iterations: int = 8) -> float:
         """Optimise all poses and landmarks.
 
         Args:

@@ -6,17 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symboslam.engine.slam.beliefs import ClassBeliefs
-from symboslam.engine.slam.edge_map import EdgeMap
+from symboslam.engine.slam.joining import Joining
 from symboslam.engine.slam.joint import JointGraph, Piece
 from symboslam.engine.slam.log import Floats
-from symboslam.engine.slam.run import Run
 from symboslam.engine.slam.slam_map import MappedLandmarks, SlamMap, Trajectory
 
 def outcome(
-    graph: JointGraph,
-    runs: list[Run],
-    edges: list[EdgeMap],
-    placed: list[int],
+    joined: Joining,
     dynamic: NDArray[np.bool_],
     similarity: Floats,
     doubts: list[str],
@@ -25,15 +21,13 @@ def outcome(
     """What was mapped.
 
     Args:
-        graph: solved.
-        runs: all of them.
-        edges: their own maps.
-        placed: number of the run of each member of the graph.
+        joined: all robots.
         dynamic: (C,) which classes move.
         similarity: (C, C) how alike classes are.
         doubts: why the map should not be trusted.
         notes: what was left out.
     """
+    graph, runs, edges, placed = joined.graph, joined.runs, joined.edges, joined.placed
     groups: dict[int, list[Piece]] = {}
     for piece in graph.pieces:
         groups.setdefault(piece.label, []).append(piece)

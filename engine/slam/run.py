@@ -3,17 +3,24 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symboslam.engine.slam.beliefs import ClassBeliefs
-from symboslam.engine.slam.edge_map import EdgeMap
+from symboslam.engine.slam.edge_map import EdgeMap, Known
 from symboslam.engine.slam.increment import EdgeIncrement
 from symboslam.engine.slam.joint import Member, Piece
 from symboslam.engine.slam.log import ROBOT, Closures, Floats, Pose
 from symboslam.engine.slam.pose_graph import Fix, PoseGraph, Sighting
 from symboslam.engine.slam.settings import SlamSettings
+
+
+OWN: Pose = (0.01, 0.01, 0.001)
+"""Standard deviations of a start that a robot's own frame is laid through."""
+LOOSE: Pose = (1.0, 1.0, 0.1)
+"""Standard deviations of a start that was worked out."""
 
 
 class Run:
@@ -120,22 +127,39 @@ class Run:
                 ClassBeliefs(self._similarity),
                 self._dynamic,
                 self.start or (0.0, 0.0, 0.0),
-                self.start_sigma if self.start else (0.01, 0.01, 0.001),
+                self.start_sigma if self.start else OWN,
                 self.settings,
             )
         self._map.follow(last)
         return self._map
 
-    def member(self, edge: EdgeMap, number: int, labels: dict[tuple[int, int], int]) -> Member:
-        """The run as part of a joint graph; labels are numbered on in ``labels``."""
+    def mapped_again(self, start: Pose, known: Sequence[Known]) -> EdgeMap:
+        """The run's map made anew, with landmarks of others to go by."""
+        edge = EdgeMap(
+            self.graph,
+            ClassBeliefs(self._similarity),
+            self._dynamic,
+            start,
+            self.start_sigma if self.start else LOOSE,
+            self.settings,
+            known,
+        )
+        edge.follow(last=True)
+        return edge
+
+    def member(self, edge: EdgeMap, number: int, labels: Mapping[int, int]) -> Member:
+        """The run as part of a joint graph.
+
+        Args:
+            edge: its map.
+            number: of the run.
+            labels: landmark of its map -> label.
+        """
         pieces = [
-            Piece(
-                number,
-                track,
-                labels.setdefault((number, edge.landmark_of[track.number]), len(labels)),
-            )
+            Piece(number, track, labels[edge.landmark_of[track.number]])
             for track in edge.tracker.tracks
             if track.number in edge.landmark_of
         ]
+        parts = [(seen, labels[n]) for seen, n in edge.partial if n in labels]
         sigma = self.start_sigma if self.start else None
-        return Member(self.name, self.graph, edge.poses(), sigma, pieces, self.closures)
+        return Member(self.name, self.graph, edge.poses(), sigma, pieces, self.closures, parts)

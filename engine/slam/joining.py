@@ -1,0 +1,182 @@
+"""Joining: the maps of all runs in one joint graph, merged round by round.
+
+Landmarks of different visits and of different robots are merged by what lies within covariances and
+by constellations, until nothing changes. Robots that do not know where they began are placed by what
+they saw. A robot that is doubted is mapped again, with what the others have mapped to go by.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from symboslam.engine.slam.association import Association
+from symboslam.engine.slam.beliefs import ClassBeliefs
+from symboslam.engine.slam.consistency import doubts
+from symboslam.engine.slam.edge_map import EdgeMap, Known
+from symboslam.engine.slam.joint import JointGraph, Member
+from symboslam.engine.slam.log import Floats, Pose
+from symboslam.engine.slam.meetings import find_meetings
+from symboslam.engine.slam.placing import place_lost
+from symboslam.engine.slam.run import OWN, Run
+from symboslam.engine.slam.scale import Scale
+from symboslam.engine.slam.settings import SlamSettings
+
+Progress = Callable[[str, float], None]
+"""Is told what is done, and which share of it."""
+
+WELL = 5
+"""A landmark seen so often by others is one to go by."""
+
+
+class Joining:
+    """The maps of all runs in one graph.
+
+    Args:
+        runs: of robots, with at least one key pose each.
+        edges: their own maps.
+        similarity: (C, C) how alike classes are.
+        settings: of map building.
+        progress: is told what is done.
+
+    Attributes:
+        edges: as given; those of robots that were mapped again are replaced.
+        graph: of all robots that are placed, in that order.
+        placed: numbers of their runs.
+        lost: numbers of runs that could not be placed.
+        doubts: number of a run -> why it should not be trusted; only those with doubts.
+    """
+
+    def __init__(
+        self,
+        runs: Sequence[Run],
+        edges: Sequence[EdgeMap],
+        similarity: Floats,
+        settings: SlamSettings,
+        progress: Progress,
+    ) -> None:
+        self.runs, self.edges = list(runs), list(edges)
+        self._settings, self._progress = settings, progress
+        self._beliefs, self._scale = ClassBeliefs(similarity), Scale()
+        self.graph = JointGraph([], settings, 1.0)
+        self.placed: list[int] = []
+        self.lost = list(range(len(self.runs)))
+        self.doubts: dict[int, list[str]] = {}
+        self._next = 0
+        self._named: dict[str, int] = {}
+        self._members = [self._member(n, edge) for n, edge in enumerate(self.edges)]
+        for edge in self.edges:
+            self._scale.include(edge.scale)
+
+    def join(self) -> None:
+        """Put all robots in one frame."""
+        known = [n for n in self.lost if self.runs[n].start is not None or self.runs[n].graph.fixes]
+        if not known and self.lost:
+            known = self.lost[:1]
+            self._members[known[0]].start_sigma = OWN
+        if not known:
+            return
+        self._add(known)
+        while self.lost:
+            waiting = [self._members[n] for n in self.lost]
+            found = place_lost(self.graph, waiting, self._beliefs, self._scale)
+            if found is None:
+                break
+            number = self.lost[found[0]]
+            self._members[number].put(found[1])
+            self._add([number])
+        self._look()
+        if self.doubts and len(self.doubts) < len(self.placed):
+            self._repair()
+
+    def _add(self, numbers: Sequence[int]) -> None:
+        self.placed += numbers
+        self.lost = [n for n in self.lost if n not in numbers]
+        self.graph = self._solved([self._members[n] for n in self.placed])
+
+    def _look(self) -> None:
+        """Find out whom to doubt."""
+        said = doubts(self.graph, [self.edges[n] for n in self.placed])
+        self.doubts = {n: each for n, each in zip(self.placed, said, strict=True) if each}
+
+    def _repair(self) -> None:
+        """Map those that are doubted again; keep that if it leaves fewer doubts."""
+        before = self.graph, self.edges, self._members, self.doubts, self.placed
+        doubted = list(self.doubts)
+        trusted = [n for n in self.placed if n not in doubted]
+        self.edges, self._members = list(self.edges), list(self._members)
+        graph = self._solved([self._members[n] for n in trusted])
+        labels, known = _known(graph)
+        for number in doubted:
+            self._progress(f"mapping {self.runs[number].name} again", 0.5)
+            run = self.runs[number]
+            x, y, heading = self._members[number].poses[0].tolist()
+            start: Pose = run.start or (x, y, heading)
+            edge = run.mapped_again(start, known)
+            self.edges[number] = edge
+            self._members[number] = self._member(number, edge, labels)
+        self.placed = trusted + doubted
+        self.graph = self._solved([self._members[n] for n in self.placed])
+        self._look()
+        if sum(map(len, self.doubts.values())) >= sum(map(len, before[3].values())):
+            self.graph, self.edges, self._members, self.doubts, self.placed = before
+
+    def _member(self, number: int, edge: EdgeMap, known: Sequence[int] = ()) -> Member:
+        """A run as part of the graph; ``known`` are labels of landmarks that it was given."""
+        labels = dict(enumerate(known))
+        for landmark in edge.landmark_of.values():
+            if landmark not in labels:
+                labels[landmark] = self._next
+                self._next += 1
+        member = self.runs[number].member(edge, number, labels)
+        for piece in member.pieces:
+            if piece.track.key:
+                piece.label = self._named.setdefault(piece.track.key, piece.label)
+        return member
+
+    def _solved(self, members: list[Member]) -> JointGraph:
+        """Robots in one frame, merged round by round."""
+        settings, scale = self._settings, self._scale
+        graph = JointGraph(members, settings, scale.spacing(sum(len(m.graph) for m in members)))
+        for number, member in enumerate(members):
+            member.renumber(number)
+        graph.parts = [
+            (number, seen, label)
+            for number, member in enumerate(members)
+            for seen, label in member.parts
+        ]
+        far = True
+        for turn in range(settings.rounds):
+            self._progress("merging", turn / settings.rounds)
+            if far:
+                graph.solve(0)
+            find_meetings(graph)
+            graph.solve(settings.kernel)
+            if not graph.labels():
+                break
+            graph.marginals()
+            association = Association(graph, self._beliefs, scale)
+            changed = association.merge_near()
+            merged, far = association.constellations()
+            if not merged:
+                changed += association.move()
+            if changed + merged <= turn // 4:
+                break
+        return graph
+
+
+def _known(graph: JointGraph) -> tuple[list[int], list[Known]]:
+    """Labels and landmarks that are seen well."""
+    pieces: dict[int, list[int]] = {}
+    for n, piece in enumerate(graph.pieces):
+        pieces.setdefault(piece.label, []).append(n)
+    labels, known = [], []
+    every = graph.pieces
+    for label, numbers in sorted(pieces.items()):
+        seen = [every[n] for n in numbers]
+        if sum(len(p.track.sightings) for p in seen) < WELL or label not in graph.covariance:
+            continue
+        evidence = sum((p.track.evidence for p in seen[1:]), seen[0].track.evidence)
+        name = next((p.track.key for p in seen if p.track.key), "")
+        labels.append(label)
+        known.append(Known(graph.xy[label], graph.covariance[label], evidence, name))
+    return labels, known
