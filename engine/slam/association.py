@@ -136,9 +136,7 @@ class Association:
         """Where the merged landmark is thought to be, by the covariances of both."""
         graph = self.graph
         one, other = (np.linalg.inv(graph.covariance[label]) for label in (keep, gone))
-        graph.xy[keep] = np.linalg.solve(
-            one + other, one @ graph.xy[keep] + other @ graph.xy[gone]
-        )
+        graph.xy[keep] = np.linalg.solve(one + other, one @ graph.xy[keep] + other @ graph.xy[gone])
 
     def _named_apart(self, one: int, other: int) -> bool:
         names = [
@@ -155,9 +153,7 @@ class Association:
         """
         self._take_stock()
         graph, found = self.graph, []
-        spread = float(
-            np.median([np.trace(graph.covariance[label]) / 2 for label in self.labels])
-        )
+        spread = float(np.median([np.trace(graph.covariance[label]) / 2 for label in self.labels]))
         for number in range(len(graph.members)):
             for window in self.windows(number):
                 found += self._match(number, window, spread)

@@ -13,8 +13,8 @@ from symboslam.engine.readers.checks import LONGEST_ID, UNWRITABLE
 from symboslam.engine.slam.log import Floats, Ints, Pose
 from symboslam.errors import InputError
 
-_FARTHEST = 1e9
-"""Metres and seconds; nothing reaches farther."""
+_FARTHEST = 1e12
+"""Metres, and seconds since 1970; nothing reaches farther."""
 _MOST = 2**53
 """Numbers below it are exact in every JSON reader."""
 
@@ -34,6 +34,7 @@ class EdgeIncrement:
         step: (k, 3) from the key pose before, in its frame; zeros for the very first.
         sigma: (k, 3) standard deviations of the steps.
         row: (m,) number of each sighting in its run.
+        seen: (m,) seconds, when it was made.
         pose: (m,) number of the key pose that it is made from.
         range: (m,) metres; NaN for none.
         bearing: (m,) radians; NaN for none.
@@ -58,6 +59,7 @@ class EdgeIncrement:
     step: Floats
     sigma: Floats
     row: Ints
+    seen: Floats
     pose: Ints
     range: Floats
     bearing: Floats
@@ -124,7 +126,7 @@ class EdgeIncrement:
         for number, names in (
             (len(self.time), ("time", "step", "sigma")),
             (len(self.row), (
-                "row", "pose", "range", "bearing", "sigma_range", "sigma_bearing", "feature",
+                "row", "seen", "pose", "range", "bearing", "sigma_range", "sigma_bearing", "feature",
                 "confidence", "key", "track",
             )),
             (len(self.fix_pose), ("fix_pose", "fix")),
@@ -251,7 +253,7 @@ def _texts(value: Mapping[str, Any], name: str) -> NDArray[np.object_]:
 
 
 _COLUMNS: tuple[tuple[tuple[str, ...], Callable[[Mapping[str, Any], str], Any]], ...] = (
-    (("time", "sigma_range", "sigma_bearing", "confidence"), _numbers),
+    (("time", "seen", "sigma_range", "sigma_bearing", "confidence"), _numbers),
     (("range", "bearing"), _numbers_or_nothing),
     (("step", "sigma", "fix"), _triples),
     (("row", "pose", "track", "fix_pose"), _whole),

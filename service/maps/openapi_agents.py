@@ -9,8 +9,8 @@ from symboslam.service.maps.openapi import TEXT
 from symboslam.service.openapi import also
 from symboslam.service.vocabulary import JSON, NDJSON
 
-_FAR = {"type": "number", "minimum": -1e9, "maximum": 1e9}
-_POSITIVE = {"type": "number", "exclusiveMinimum": 0, "maximum": 1e9}
+_FAR = {"type": "number", "minimum": -1e12, "maximum": 1e12}
+_POSITIVE = {"type": "number", "exclusiveMinimum": 0, "maximum": 1e12}
 _COUNT = {"type": "integer", "minimum": 0, "maximum": 2**53 - 1}
 _NAME = {"type": "string", "maxLength": 256, "pattern": TEXT}
 _WORD = {"type": "string", "minLength": 1, "maxLength": 256, "pattern": r"^[0-9A-Za-z._:@/-]*$"}
@@ -43,6 +43,7 @@ _MEMBERS: dict[str, Any] = {
     },
     "sigma": {**_rows(_three(_POSITIVE), _KEY_POSE), "description": "Deviations of the steps."},
     "row": {**_rows(_COUNT, _SIGHTING), "description": "Number of each sighting in its run."},
+    "seen": {**_rows(_FAR, _SIGHTING), "description": "Seconds, when each sighting was made."},
     "pose": {**_rows(_COUNT, _SIGHTING), "description": "Key pose that it is made from."},
     "range": {
         **_rows({"anyOf": [{**_FAR, "minimum": 0}, {"type": "null"}]}, _SIGHTING),
@@ -76,7 +77,7 @@ _EXAMPLE = {
     "robot": "robot-1", "run": "2026-03-02T10:00:00Z", "sequence": 0, "start": [10, 20, 0],
     "start_sigma": [0.1, 0.1, 0.01], "first": 0, "time": [0, 1.5],
     "step": [[0, 0, 0], [2, 0, 0.1]], "sigma": [[0.01, 0.01, 0.01], [0.1, 0.04, 0.01]],
-    "row": [0], "pose": [1], "range": [12.5], "bearing": [0.4], "sigma_range": [0.5],
+    "row": [0], "seen": [0.5], "pose": [1], "range": [12.5], "bearing": [0.4], "sigma_range": [0.5],
     "sigma_bearing": [0.02], "feature": ["House"], "confidence": [0.9], "key": [""], "track": [-1],
     "fix_pose": [], "fix": [], "last": False,
 }  # fmt: skip

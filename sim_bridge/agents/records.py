@@ -13,7 +13,7 @@ from symboslam.errors import InputError
 
 ROBOT_CLASS = "Robot"
 """What a record calls a robot that was seen, unless the ontology has such a feature."""
-_FARTHEST = 1e9
+_FARTHEST = 1e12
 _SHOWN = 5
 """Bad lines that are told one by one."""
 _LONGEST = 256
