@@ -31,7 +31,7 @@ class OdometryNoise:
     along: float = 0.05
     across: float = 0.02
     turn: float = 0.05
-    drift: float = 0.0
+    drift: float = 0.002
     floor: tuple[float, float, float] = (0.003, 0.002, 0.003)
 
     def sigmas(self, steps: Floats) -> Floats:

@@ -31,7 +31,7 @@ from symboslam.engine.slam.readers.rows import in_order, one_a_time, without_rep
 from symboslam.engine.slam.readers.text import Table, count, find_file, read_table
 from symboslam.errors import InputError
 
-NOISE = OdometryNoise(along=0.15, across=0.03, turn=0.35, floor=(0.004, 0.001, 0.008))
+NOISE = OdometryNoise(along=0.15, across=0.03, turn=0.35, drift=0.0, floor=(0.004, 0.001, 0.008))
 """Of a step of 0.5 s, measured on these robots. The rows of the files are 10 to 20 ms apart: an
 estimator that takes each row for a step must not use the floor as it is."""
 SIGMA_RANGE = 0.15

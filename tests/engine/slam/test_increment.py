@@ -42,7 +42,7 @@ def increments(draw: st.DrawFn) -> EdgeIncrement:
         start=draw(st.none() | st.tuples(FAR, FAR, FAR)),
         start_sigma=draw(st.tuples(ABOVE, ABOVE, ABOVE)), first=first,
         time=np.cumsum(column(st.floats(0.01, 10), k)), step=table(FAR, k), sigma=table(ABOVE, k),
-        row=np.array(row, np.int64), pose=column(pose, m, np.int64),
+        row=np.array(row, np.int64), seen=column(FAR, m), pose=column(pose, m, np.int64),
         range=column(st.floats(0, 100) | st.just(float("nan")), m),
         bearing=column(st.floats(-4, 4) | st.just(float("nan")), m),
         sigma_range=column(ABOVE, m), sigma_bearing=column(ABOVE, m),
@@ -71,7 +71,7 @@ def test_what_is_written_is_read_again(increment: EdgeIncrement) -> None:
 
 GOOD = EdgeIncrement(
     "r1", "a", 3, (1.0, 2.0, 0.5), (0.1, 0.1, 0.1), 4, np.array([1.0, 2.0]), np.ones((2, 3)),
-    np.ones((2, 3)), np.array([7]), np.array([5]), np.array([np.nan]), np.array([0.5]),
+    np.ones((2, 3)), np.array([7]), np.array([2.5]), np.array([5]), np.array([np.nan]), np.array([0.5]),
     np.array([0.5]), np.array([0.1]), objects(["House"]), np.array([0.9]), objects([""]),
     np.array([-1]), np.array([4]), np.ones((1, 3)),
 ).to_json()  # fmt: skip
@@ -116,8 +116,8 @@ def test_rows_are_numbered_once() -> None:
     twice = {
         **GOOD, "row": [7, 7],
         **{name: GOOD[name] * 2 for name in (
-            "pose", "range", "bearing", "sigma_range", "sigma_bearing", "feature", "confidence",
-            "key", "track",
+            "seen", "pose", "range", "bearing", "sigma_range", "sigma_bearing", "feature",
+            "confidence", "key", "track",
         )},
     }  # fmt: skip
     with pytest.raises(InputError, match="twice"):
