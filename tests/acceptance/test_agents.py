@@ -100,7 +100,7 @@ def check(client: httpx.Client, which: str, mission: Mission) -> None:
         off.append(away[nearest])
         index = int(names[nearest].split()[-1]) - 1
         right += each["properties"]["class"] == NAMES[index]
-    assert len(seen) - 3 <= len(found) <= len(seen) + 3
+    assert len(seen) - 3 <= len(found) <= 1.25 * len(seen)  # a few are there twice
     assert np.mean(off) < 2.5
     assert right >= 0.9 * len(found)
     segments = client.get(f"/v1/maps/{which}/segments").json()["features"]
