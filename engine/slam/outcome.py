@@ -39,6 +39,16 @@ def outcome(
             graph.xy[next_label] = piece.where(graph.members[number].poses)[0]
             groups[next_label] = [piece]
             next_label += 1
+    once = [
+        label
+        for label, pieces in groups.items()
+        if len(pieces) == 1
+        and len(pieces[0].track.sightings) == 1
+        and not pieces[0].track.key
+        and edges[placed[pieces[0].member]].tracker.often
+    ]
+    for label in once:
+        del groups[label]
     labels = sorted(groups)
     landmarks = _landmarks(graph, groups, labels, dynamic, similarity)
     row = {label: n for n, label in enumerate(labels)}
