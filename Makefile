@@ -16,7 +16,7 @@ BENCHMARK ?= ../shared/benchmark
 UPSTREAM ?= ../shared/upstream
 SEED ?= 7
 
-.PHONY: help demo test test-slow lint format bench query-page docs knowledge pitfalls results picture proofs acceptance system wheel clean
+.PHONY: help demo test test-slow lint format bench query-page docs knowledge pitfalls results slam-results picture proofs acceptance system wheel clean
 
 help: ## list the targets
 	@grep -E '^[a-z.][a-z.-]*:.*## ' Makefile | sed -E 's/^([a-z.-]+):.*## /\1\t/' | expand -t 14
@@ -59,7 +59,10 @@ format: $(STAMP) ## mend what ruff can mend
 	$(PY) -m ruff format .
 
 bench: $(STAMP) ## measure speed and memory, write bench/RESULTS.md (some minutes)
-	@$(PY) -m bench --out bench/RESULTS.md
+	@BENCHMARK="$(BENCHMARK)" $(PY) -m bench --out bench/RESULTS.md
+
+slam-results: $(STAMP) ## measure map building, write its part of docs/map-building.md (10 minutes)
+	@BENCHMARK="$(BENCHMARK)" $(PY) -m bench --only slam --into docs/map-building.md
 
 query-page: ## fetch YASGUI for the query page (needs npm; `make .venv` does it where it can)
 	@scripts/query-page

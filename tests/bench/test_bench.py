@@ -42,6 +42,29 @@ def test_each_case_runs_on_toy_sizes(case: str, tmp_path: Path) -> None:
     assert "different" not in text.replace("difference", "")
 
 
+def test_map_building_runs_on_toy_sizes_and_into_a_page(tmp_path: Path) -> None:
+    pytest.importorskip("gtsam", reason="needs symboslam[slam]")
+    page = tmp_path / "page.md"
+    page.write_text("before\n<!-- bench -->\nold\n<!-- end of bench -->\nafter\n")
+    done = run("-m", "bench", "--tiny", "--only", "slam", "--into", str(page))
+    assert done.returncode == 0, done.stderr
+    text = page.read_text()
+    assert text.startswith("before\n<!-- bench -->\n")
+    assert text.endswith("\n<!-- end of bench -->\nafter\n")
+    assert "\nold\n" not in text
+    assert "### SymboSLAM, in simulated worlds" in text
+    assert "target p99" in text
+
+
+def test_a_page_without_marks_is_kept(tmp_path: Path) -> None:
+    page = tmp_path / "page.md"
+    page.write_text("before\n<!-- bench -->\n")
+    done = run("-m", "bench", "--tiny", "--only", "evidence", "--into", str(page))
+    assert done.returncode != 0
+    assert "<!-- end of bench -->" in done.stderr
+    assert page.read_text() == "before\n<!-- bench -->\n"
+
+
 @pytest.mark.slow
 def test_knowledge_case_runs(tmp_path: Path) -> None:
     done = run("-m", "bench", "--tiny", "--only", "knowledge")
