@@ -1,4 +1,4 @@
-"""Constellations: which things of two maps are the same, by class and by the distances between them.
+"""Constellations: which things of two maps are the same, by class and by distances between them.
 
 Candidates are pairs of one thing here and one there. Two candidates agree if the distance between
 both things here is that between both there. A set of candidates that all agree with each other is a
@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import networkx as nx
@@ -116,7 +115,9 @@ class _Candidates:
         away = here.xy[:, None] - there.xy[None]
         near &= (away**2).sum(2) <= 11.8 * placing.variance[:, None]
         if near.shape[1] > CHOICES:
-            worth = np.where(near, alike - (away**2).sum(2) / 2 / placing.variance[:, None], -np.inf)
+            worth = np.where(
+                near, alike - (away**2).sum(2) / 2 / placing.variance[:, None], -np.inf
+            )
             near &= worth >= np.partition(worth, -CHOICES, axis=1)[:, -CHOICES, None]
         self.a, self.b = np.nonzero(near)
         self.alike, self.placing = alike[near], placing
@@ -153,9 +154,7 @@ class _Candidates:
             sure = clique[[a not in disputed for a in self.a[clique].tolist()]]
             if len(sure):
                 found.append(Match(self.a[sure], self.b[sure], top, margin))
-            graph.remove_nodes_from(
-                [n for n in graph if self.a[n] in mine or self.b[n] in back]
-            )
+            graph.remove_nodes_from([n for n in graph if self.a[n] in mine or self.b[n] in back])
         return found
 
     def _graph(self) -> nx.Graph:
@@ -166,9 +165,7 @@ class _Candidates:
         agree = abs(la - lb) < 3 * tol
         agree &= (self.a[:, None] != self.a[None]) & (self.b[:, None] != self.b[None])
         if self.placing.heading < np.pi:
-            turn = wrap(
-                np.arctan2(da[..., 1], da[..., 0]) - np.arctan2(db[..., 1], db[..., 0])
-            )
+            turn = wrap(np.arctan2(da[..., 1], da[..., 0]) - np.arctan2(db[..., 1], db[..., 0]))
             agree &= abs(turn) < 3 * self.placing.heading + 3 * tol / np.maximum(la, 1e-9)
         graph = nx.Graph()
         graph.add_nodes_from(range(len(self.a)))

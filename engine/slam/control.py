@@ -21,6 +21,7 @@ from symboslam.engine.slam.run import Run
 from symboslam.engine.slam.settings import SlamSettings
 from symboslam.engine.slam.slam_map import SlamMap
 
+
 def _silent(what: str, share: float) -> None:
     pass
 

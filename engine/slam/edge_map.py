@@ -229,9 +229,7 @@ class EdgeMap:
 
     def _add(self, seen: Sighting, landmark: int) -> None:
         key = factors.pose_key(0, seen.pose)
-        factors.add_sighting(
-            self._factors, key, factors.landmark_key(landmark), seen, self._loss
-        )
+        factors.add_sighting(self._factors, key, factors.landmark_key(landmark), seen, self._loss)
         evidence = self.beliefs.likelihood(seen.feature, seen.confidence)
         self._evidence[landmark] = self._evidence[landmark] + evidence
         self._frames[landmark].add(seen.time)

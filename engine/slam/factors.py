@@ -121,6 +121,4 @@ def add_closures(
     ):
         if one != other:
             sigma = np.sqrt(np.diag(covariance)).tolist()
-            graph.add(
-                gtsam.BetweenFactorPose2(keys[one], keys[other], pose(step), loss.of(*sigma))
-            )
+            graph.add(gtsam.BetweenFactorPose2(keys[one], keys[other], pose(step), loss.of(*sigma)))

@@ -20,7 +20,9 @@ def seen_robots(member: Member) -> list[Sighting]:
     return [s for s in member.graph.sightings if s.feature == ROBOT and s.whole]
 
 
-def at_time(member: Member, time: Floats) -> tuple[Ints, np.ndarray[tuple[int], np.dtype[np.bool_]]]:
+def at_time(
+    member: Member, time: Floats
+) -> tuple[Ints, np.ndarray[tuple[int], np.dtype[np.bool_]]]:
     """The key pose at each time, and whether the robot was there then at all."""
     number = np.searchsorted(member.time, time + 1e-6) - 1
     there = (time >= member.time[0] - 1) & (time <= member.time[-1] + 1)
@@ -40,9 +42,7 @@ def find_meetings(graph: JointGraph) -> None:
             continue
         others = [n for n in range(len(graph.members)) if n != number]
         time = np.array([s.time for s in seen])
-        where = place(
-            member.poses[[s.pose for s in seen]], np.array([s.point for s in seen])
-        )
+        where = place(member.poses[[s.pose for s in seen]], np.array([s.point for s in seen]))
         away, at = np.full((len(others), len(seen)), np.inf), []
         for row, other in enumerate(others):
             poses, there = at_time(graph.members[other], time)

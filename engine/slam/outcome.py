@@ -11,6 +11,7 @@ from symboslam.engine.slam.joint import JointGraph, Piece
 from symboslam.engine.slam.log import Floats
 from symboslam.engine.slam.slam_map import MappedLandmarks, SlamMap, Trajectory
 
+
 def outcome(
     joined: Joining,
     dynamic: NDArray[np.bool_],
