@@ -36,7 +36,7 @@ class Association:
         self.graph, self.beliefs, self.scale = graph, beliefs, scale
         self._next = max(graph.labels(), default=-1) + 1
 
-    def _take_stock(self) -> None:
+    def take_stock(self) -> None:
         """Evidence and times of each landmark, as it is now."""
         self.labels = self.graph.labels()
         self.times: dict[int, set[tuple[int, float]]] = {label: set() for label in self.labels}
@@ -59,7 +59,7 @@ class Association:
     def move(self) -> int:
         """Give tracks to the landmarks that they fit, split off those that fit none; how many."""
         graph = self.graph
-        self._take_stock()
+        self.take_stock()
         floor = (graph.settings.floor * self.scale.sigma) ** 2
         size = {label: 0 for label in self.labels}
         pieces = graph.pieces
@@ -91,7 +91,7 @@ class Association:
 
     def merge_near(self) -> int:
         """Merge landmarks that lie within their covariances; how many."""
-        self._take_stock()
+        self.take_stock()
         graph = self.graph
         known = [label for label in self.labels if label in graph.covariance]
         if len(known) < 2:
@@ -136,7 +136,8 @@ class Association:
         """Where the merged landmark is thought to be, by the covariances of both."""
         graph = self.graph
         one, other = (np.linalg.inv(graph.covariance[label]) for label in (keep, gone))
-        graph.xy[keep] = np.linalg.solve(one + other, one @ graph.xy[keep] + other @ graph.xy[gone])
+        told = one @ graph.xy[keep] + other @ graph.xy[gone]
+        graph.xy[keep] = np.asarray(np.linalg.solve(one + other, told), np.float64)
 
     def _named_apart(self, one: int, other: int) -> bool:
         names = [
@@ -151,7 +152,7 @@ class Association:
         Returns:
             How many, and whether some of them were far apart.
         """
-        self._take_stock()
+        self.take_stock()
         graph, found = self.graph, []
         spread = float(np.median([np.trace(graph.covariance[label]) / 2 for label in self.labels]))
         for number in range(len(graph.members)):

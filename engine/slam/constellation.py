@@ -1,4 +1,4 @@
-"""Constellations: which things of two maps are the same, by class and by the distances between them.
+"""Constellations: which things of two maps are the same, by class and by distances between them.
 
 Candidates are pairs of one thing here and one there. Two candidates agree if the distance between
 both things here is that between both there. A set of candidates that all agree with each other is a
@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import networkx as nx

@@ -1,8 +1,8 @@
 """Joining: the maps of all runs in one joint graph, merged round by round.
 
-Landmarks of different visits and of different robots are merged by what lies within covariances and
-by constellations, until nothing changes. Robots that do not know where they began are placed by what
-they saw. A robot that is doubted is mapped again, with what the others have mapped to go by.
+Landmarks of different visits and of different robots are merged by what lies within covariances
+and by constellations, until nothing changes. Robots that do not know where they began are placed by
+what they saw. A robot that is doubted is mapped again, with what the others have mapped to go by.
 """
 
 from __future__ import annotations

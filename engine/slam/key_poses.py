@@ -184,8 +184,10 @@ def replay(log: RobotLog, keys: KeyPoses) -> Iterator[list[Sighting]]:
     """A log as it came, row by row; yields the sightings after each row of odometry."""
     seen = log.seen
     columns = (seen.time, seen.range, seen.bearing, seen.feature, seen.confidence, seen.key)
-    rows = list(zip(*(column.tolist() for column in columns), strict=True))
-    order = np.argsort(seen.time, kind="stable").tolist()
+    rows: list[tuple[float, float, float, int, float, str]] = list(
+        zip(*(column.tolist() for column in columns), strict=True)
+    )
+    order: list[int] = np.argsort(seen.time, kind="stable").tolist()
     n = 0
     for time, (x, y, heading) in zip(
         log.odometry.time.tolist(), log.odometry.pose.tolist(), strict=True

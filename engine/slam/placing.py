@@ -1,8 +1,8 @@
 """Placing: where a robot is that does not know where it began.
 
-By three or more things that it saw and that are on the map (resection, as the paper suggests), or by
-what has a name. A window of its tracks is compared with the map as a constellation, wherever it may
-lie and however it may be turned; frames are planar and upright.
+By three or more things that it saw and that are on the map (resection, as the paper suggests), or
+by what has a name. A window of its tracks is compared with the map as a constellation, wherever it
+may lie and however it may be turned; frames are planar and upright.
 """
 
 from __future__ import annotations
@@ -77,8 +77,8 @@ def _by_class(
     mine, theirs = Association(alone, beliefs, scale), Association(graph, beliefs, scale)
     if not member.pieces:
         return None
-    mine._take_stock()
-    theirs._take_stock()
+    mine.take_stock()
+    theirs.take_stock()
     there = Things(theirs.xy, theirs.told)
     found = []
     for window in mine.windows(0):

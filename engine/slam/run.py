@@ -16,7 +16,6 @@ from symboslam.engine.slam.log import ROBOT, Closures, Floats, Pose
 from symboslam.engine.slam.pose_graph import Fix, PoseGraph, Sighting
 from symboslam.engine.slam.settings import SlamSettings
 
-
 OWN: Pose = (0.01, 0.01, 0.001)
 """Standard deviations of a start that a robot's own frame is laid through."""
 LOOSE: Pose = (1.0, 1.0, 0.1)

@@ -206,16 +206,15 @@ def _look(
                     called[k - len(xy)] if is_robot else str(names[k]),
                 )
             )
-    time, reach, angle, what, name = zip(*rows, strict=True) if rows else ((), (), (), (), ())
     sure = np.full(len(rows), 1 - max(world.misclassified, 0.01))
     seen = Measurements(
-        np.array(time, float),
-        np.array(reach, float),
-        np.array(angle, float),
-        np.array(what, np.int64),
+        np.array([row[0] for row in rows], float),
+        np.array([row[1] for row in rows], float),
+        np.array([row[2] for row in rows], float),
+        np.array([row[3] for row in rows], np.int64),
         sure,
         np.full(len(rows), "", object),
         world.sigma_range,
         world.sigma_bearing,
     )
-    return seen, np.array(name, object)
+    return seen, np.array([row[4] for row in rows], object)

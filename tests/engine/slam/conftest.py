@@ -8,8 +8,20 @@ from typing import Any
 import numpy as np
 import pytest
 
-from symboslam.engine.slam.log import Measurements, Mission, Odometry, RobotLog, Truth
+from symboslam.engine.slam.beliefs import ClassBeliefs
+from symboslam.engine.slam.joint import Member, Piece
+from symboslam.engine.slam.log import (
+    Measurements,
+    Mission,
+    Odometry,
+    OdometryNoise,
+    RobotLog,
+    Truth,
+)
+from symboslam.engine.slam.planar import between
+from symboslam.engine.slam.pose_graph import PoseGraph, Sighting
 from symboslam.engine.slam.slam_map import MappedLandmarks, SlamMap, Trajectory
+from symboslam.engine.slam.tracks import Track
 
 CLASSES = ("House", "Cottage", "Tree", "Dog")
 SIMILARITY = np.eye(4)
@@ -97,5 +109,42 @@ def slam_map() -> Callable[..., SlamMap]:
         return SlamMap(
             trajectories, landmarks, {k: np.array(v, np.int64) for k, v in (of or {}).items()}
         )
+
+    return make
+
+
+@pytest.fixture
+def robot() -> Callable[..., Member]:
+    """A robot of a joint graph that knows where it was: a pose each second.
+
+    Tracks are label -> rows of (number of the pose, x, y of what is seen in the map's frame).
+    """
+
+    def make(
+        name: str,
+        poses: Sequence[tuple[float, float, float]],
+        tracks: dict[int, list[tuple[int, float, float]]],
+        feature: dict[int, int] | None = None,
+        key: dict[int, str] | None = None,
+    ) -> Member:
+        way = np.asarray(poses, float)
+        graph, beliefs = PoseGraph(name), ClassBeliefs(np.eye(8))
+        noise = OdometryNoise(along=0.05, across=0.02, turn=0.05, floor=(0.001, 0.001, 0.001))
+        for n, pose in enumerate(way):
+            graph.extend(float(n), pose, noise)
+        pieces = []
+        for number, (label, rows) in enumerate(tracks.items()):
+            kind, called = (feature or {}).get(label, 0), (key or {}).get(label, "")
+            seen = []
+            for row, (at, x, y) in enumerate(rows):
+                away = between(way[at], (x, y, 0))
+                reach, bearing = float(np.hypot(*away[:2])), float(np.arctan2(away[1], away[0]))
+                place = (row, float(at), at, reach, bearing)
+                seen.append(Sighting(*place, 0.1, 0.01, kind, 0.95, called, number))
+            evidence = sum((beliefs.likelihood(kind, 0.95) for _ in seen), np.zeros(8))
+            track = Track(number, evidence, *graph.at(seen[0]).tolist(), seen[0].variance,
+                          seen[0].pose, seen[-1].pose, seen, called)  # fmt: skip
+            pieces.append(Piece(0, track, label))
+        return Member(name, graph, way.copy(), (0.01, 0.01, 0.01), pieces)
 
     return make

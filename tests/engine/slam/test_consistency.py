@@ -1,0 +1,83 @@
+"""Consistency: a bent map, sightings that do not fit and robots that are not there are doubted."""
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from symboslam.engine.slam.consistency import bending, doubts, misfits
+from symboslam.engine.slam.joint import JointGraph, Member
+from symboslam.engine.slam.log import ROBOT
+from symboslam.engine.slam.pose_graph import Sighting
+from symboslam.engine.slam.settings import SlamSettings
+
+STRAIGHT = [(n, 0, 0) for n in range(60)]
+MARKS = {n: [(n, n + 3, 4)] for n in range(40)}
+
+
+def said(*members: Member, **edge: Any) -> list[list[str]]:
+    graph = JointGraph(list(members), SlamSettings(), 5.0)
+    for n, member in enumerate(members):
+        member.renumber(n)
+    graph.put_landmarks()
+    edges: Any = [SimpleNamespace(**({"trouble": "", "outliers": 0} | edge)) for _ in members]
+    return doubts(graph, edges)
+
+
+def test_a_map_that_fits_is_not_doubted(robot: Any) -> None:
+    member: Member = robot("r", STRAIGHT, MARKS)
+    assert bending(member) == pytest.approx(0)
+    assert said(member) == [[]]
+
+
+def test_a_bent_map_is_doubted(robot: Any) -> None:
+    member: Member = robot("r", STRAIGHT, MARKS)
+    angle = np.linspace(0, 2 * np.pi, 60)
+    member.poses = np.column_stack([10 * np.sin(angle), 10 - 10 * np.cos(angle), angle])
+    assert bending(member) > 12
+    ((sentence, *_),) = said(member)
+    assert "bends its odometry" in sentence
+    assert sentence.startswith("r: ")
+
+
+def test_bending_is_how_many_deviations_a_window_is_off(robot: Any) -> None:
+    member: Member = robot("r", STRAIGHT, {})
+    sigma = float(member.sigma[1, 0])
+    member.poses = member.poses * [1 + sigma, 1, 1]  # each step a deviation too long
+    assert bending(member) == pytest.approx(30)
+
+
+def test_too_short_a_way_is_not_judged(robot: Any) -> None:
+    member: Member = robot("r", STRAIGHT[:20], {})
+    member.poses = member.poses * [5, 1, 1]
+    assert bending(member) == 1.0
+
+
+def test_sightings_that_do_not_fit_are_doubted(robot: Any) -> None:
+    member: Member = robot("r", STRAIGHT, MARKS)
+    graph = JointGraph([member], SlamSettings(), 5.0)
+    graph.put_landmarks()
+    assert misfits(graph) == [(0.0, 40)]
+    for n in range(10):
+        graph.xy[n] = graph.xy[n] + 3.0
+    assert misfits(graph) == [(0.25, 40)]
+    edge: Any = SimpleNamespace(trouble="", outliers=0)
+    assert doubts(graph, [edge]) == [["r: 25% of 40 sightings do not fit the map (more than 15%)"]]
+
+
+def test_trouble_and_outliers_of_its_own_map_are_told(robot: Any) -> None:
+    member: Member = robot("r", STRAIGHT, MARKS)
+    member.graph.sightings += [s for p in member.pieces for s in p.track.sightings]
+    ((trouble, once),) = said(member, trouble="singular", outliers=10)
+    assert "could not be kept up to date: singular" in trouble
+    assert "25% of 40 sightings are of nothing" in once
+
+
+def test_robots_seen_where_none_is_are_doubted(robot: Any) -> None:
+    one: Member = robot("one", STRAIGHT, MARKS)
+    other: Member = robot("other", STRAIGHT, {})
+    one.graph.sightings += [Sighting(n, n, n, 5.0, 0.0, 0.1, 0.01, ROBOT, 0.9) for n in range(30)]
+    first, second = said(one, other)
+    assert first == ["one: of 30 robots that it saw, only 0 are where a robot is"]
+    assert second == []
