@@ -12,7 +12,7 @@ from symboslam.engine.slam.joining import Joining
 from symboslam.engine.slam.key_poses import KeyPoses
 from symboslam.engine.slam.log import ROBOT, OdometryNoise, Pose
 from symboslam.engine.slam.outcome import outcome
-from symboslam.engine.slam.pose_graph import Fix, Sighting
+from symboslam.engine.slam.pose_graph import Fix
 from symboslam.engine.slam.run import Run
 from symboslam.engine.slam.settings import SlamSettings
 from symboslam.engine.slam.slam_map import SlamMap
@@ -64,7 +64,6 @@ class EdgeMapper:
         self._keys = KeyPoses(
             self.graph, noise, sigma_range, sigma_bearing, self._settings.interval
         )
-        self._fixes: list[Fix] = []
         self._sequence = self._poses = self._sightings = self._told = 0
 
     @property
@@ -112,20 +111,31 @@ class EdgeMapper:
             return None
         if not number and not last:
             return None
+        names = [self._classes[s.feature] if s.feature != ROBOT else "" for s in seen]
         made = EdgeIncrement(
-            self._robot,
-            self._name,
-            self._sequence,
-            self._run.start,
-            self._run.start_sigma,
-            first,
-            np.array(graph.time[first:], float),
-            np.array(graph.step[first:], float).reshape(-1, 3),
-            np.array(graph.sigma[first:], float).reshape(-1, 3),
-            *self._columns(seen),
-            np.array([fix.pose for fix in fixes], np.int64),
-            np.array([(fix.x, fix.y, fix.sigma) for fix in fixes], float).reshape(-1, 3),
-            last,
+            robot=self._robot,
+            run=self._name,
+            sequence=self._sequence,
+            start=self._run.start,
+            start_sigma=self._run.start_sigma,
+            first=first,
+            time=np.array(graph.time[first:], float),
+            step=np.array(graph.step[first:], float).reshape(-1, 3),
+            sigma=np.array(graph.sigma[first:], float).reshape(-1, 3),
+            row=np.array([s.row for s in seen], np.int64),
+            seen=np.array([s.time for s in seen], float),
+            pose=np.array([s.pose for s in seen], np.int64),
+            range=np.array([s.range for s in seen], float),
+            bearing=np.array([s.bearing for s in seen], float),
+            sigma_range=np.array([s.sigma_range for s in seen], float),
+            sigma_bearing=np.array([s.sigma_bearing for s in seen], float),
+            feature=_texts(names),
+            confidence=np.array([s.confidence for s in seen], float),
+            key=_texts([s.key for s in seen]),
+            track=np.array([s.track for s in seen], np.int64),
+            fix_pose=np.array([fix.pose for fix in fixes], np.int64),
+            fix=np.array([(fix.x, fix.y, fix.sigma) for fix in fixes], float).reshape(-1, 3),
+            last=last,
         )
         self._sequence += 1
         self._poses, self._sightings = number, len(graph.sightings)
@@ -140,23 +150,6 @@ class EdgeMapper:
         joining.join()
         said = [sentence for each in joining.doubts.values() for sentence in each]
         return outcome(joining, self._dynamic, self._similarity, said, self.notes)
-
-    def _columns(self, seen: Sequence[Sighting]) -> list[NDArray[np.generic]]:
-        """Sightings column by column, in the order of an increment."""
-        names = [self._classes[s.feature] if s.feature != ROBOT else "" for s in seen]
-        return [
-            np.array([s.row for s in seen], np.int64),
-            np.array([s.time for s in seen], float),
-            np.array([s.pose for s in seen], np.int64),
-            np.array([s.range for s in seen], float),
-            np.array([s.bearing for s in seen], float),
-            np.array([s.sigma_range for s in seen], float),
-            np.array([s.sigma_bearing for s in seen], float),
-            _texts(names),
-            np.array([s.confidence for s in seen], float),
-            _texts([s.key for s in seen]),
-            np.array([s.track for s in seen], np.int64),
-        ]
 
 
 def _texts(values: Sequence[str]) -> NDArray[np.object_]:

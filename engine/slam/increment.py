@@ -126,8 +126,8 @@ class EdgeIncrement:
         for number, names in (
             (len(self.time), ("time", "step", "sigma")),
             (len(self.row), (
-                "row", "seen", "pose", "range", "bearing", "sigma_range", "sigma_bearing", "feature",
-                "confidence", "key", "track",
+                "row", "seen", "pose", "range", "bearing", "sigma_range", "sigma_bearing",
+                "feature", "confidence", "key", "track",
             )),
             (len(self.fix_pose), ("fix_pose", "fix")),
         ):  # fmt: skip

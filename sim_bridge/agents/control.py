@@ -34,7 +34,9 @@ _SURE = 0.02
 class Collective(Protocol):
     """What an agent needs of `symboslam.engine.slam.control.CollectiveMap`."""
 
-    notes: list[str]
+    @property
+    def notes(self) -> list[str]:
+        """What is wrong with what came, one sentence each."""
 
     def add(self, increment: EdgeIncrement, /) -> None:
         """Take an increment, in any order and any number of times."""

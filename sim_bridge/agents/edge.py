@@ -24,7 +24,9 @@ _TICK = 0.5
 class Mapper(Protocol):
     """What an agent needs of `symboslam.engine.slam.edge.EdgeMapper`."""
 
-    notes: list[str]
+    @property
+    def notes(self) -> list[str]:
+        """What is wrong with what came, one sentence each."""
 
     def odometry(self, time: float, pose: Pose, /) -> None:
         """Where the robot believes to be."""

@@ -39,7 +39,7 @@ STREET = World(
 
 def records(mission: Mission, log: RobotLog) -> Iterator[dict[str, Any]]:
     """What a robot would write down."""
-    rows = [
+    rows: list[dict[str, Any]] = [
         {"time": float(t), "odometry": [float(v) for v in pose]}
         for t, pose in zip(log.odometry.time, log.odometry.pose, strict=True)
     ]

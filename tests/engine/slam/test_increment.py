@@ -71,7 +71,8 @@ def test_what_is_written_is_read_again(increment: EdgeIncrement) -> None:
 
 GOOD = EdgeIncrement(
     "r1", "a", 3, (1.0, 2.0, 0.5), (0.1, 0.1, 0.1), 4, np.array([1.0, 2.0]), np.ones((2, 3)),
-    np.ones((2, 3)), np.array([7]), np.array([2.5]), np.array([5]), np.array([np.nan]), np.array([0.5]),
+    np.ones((2, 3)), np.array([7]), np.array([2.5]), np.array([5]), np.array([np.nan]),
+    np.array([0.5]),
     np.array([0.5]), np.array([0.1]), objects(["House"]), np.array([0.9]), objects([""]),
     np.array([-1]), np.array([4]), np.ones((1, 3)),
 ).to_json()  # fmt: skip

@@ -66,7 +66,8 @@ class EdgeMapper:
         made = EdgeIncrement(
             self.robot, self.run, self._sequence, self.start, self.start_sigma, self._sent,
             np.array([time for time, _ in new], float), steps, np.full((len(new), 3), 0.1),
-            np.arange(self._told, self._told + n), np.zeros(n), np.array([s[0] for s in seen], np.int64),
+            np.arange(self._told, self._told + n), np.zeros(n),
+            np.array([s[0] for s in seen], np.int64),
             np.array([s[1] for s in seen], float), np.array([s[2] for s in seen], float),
             np.full(n, self.sigmas[0]), np.full(n, self.sigmas[1]), objects([s[3] for s in seen]),
             np.array([s[4] for s in seen], float), objects([s[5] for s in seen]), np.full(n, -1),
