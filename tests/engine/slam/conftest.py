@@ -142,7 +142,8 @@ def robot() -> Callable[..., Member]:
                 place = (row, float(at), at, reach, bearing)
                 seen.append(Sighting(*place, 0.1, 0.01, kind, 0.95, called, number))
             evidence = sum((beliefs.likelihood(kind, 0.95) for _ in seen), np.zeros(8))
-            track = Track(number, evidence, *graph.at(seen[0]).tolist(), seen[0].variance,
+            x, y = graph.at(seen[0]).tolist()
+            track = Track(number, evidence, x, y, seen[0].variance,
                           seen[0].pose, seen[-1].pose, seen, called)  # fmt: skip
             pieces.append(Piece(0, track, label))
         return Member(name, graph, way.copy(), (0.01, 0.01, 0.01), pieces)

@@ -29,7 +29,7 @@ def test_a_shared_landmark_puts_two_robots_right(robot: Any) -> None:
     marks = {0: [(0, 5, 0)], 1: [(0, 0, 5)], 2: [(0, 5, 5)]}
     one: Member = robot("one", [(0, 0, 0)], marks)
     other: Member = robot("other", [(2, 1, 0)], marks)
-    other.put(other.poses + [0.4, -0.3, 0.1])
+    other.put(other.poses + np.array([0.4, -0.3, 0.1]))
     other.start_sigma = None
     graph = JointGraph([one, other], SlamSettings(), 5.0)
     other.renumber(1)
