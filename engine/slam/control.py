@@ -17,6 +17,7 @@ from symboslam.engine.slam.joining import Joining, Progress
 from symboslam.engine.slam.key_poses import KeyPoses, replay
 from symboslam.engine.slam.log import Floats, RobotLog
 from symboslam.engine.slam.outcome import outcome
+from symboslam.engine.slam.pose_graph import Fix
 from symboslam.engine.slam.run import Run
 from symboslam.engine.slam.settings import SlamSettings
 from symboslam.engine.slam.slam_map import SlamMap
@@ -70,6 +71,15 @@ class CollectiveMap:
         for n, _ in enumerate(replay(log, keys)):
             if n % 1000 == 0:
                 progress(f"reading {log.name}", n / total)
+        if log.fixes is not None and len(run.graph):
+            at = np.searchsorted(run.graph.time, log.fixes.time + 1e-6) - 1
+            for pose, (x, y), sigma in zip(
+                at.tolist(), log.fixes.xy.tolist(), log.fixes.sigma.tolist(), strict=True
+            ):
+                if pose >= 0:
+                    run.graph.fixes.append(Fix(pose, x, y, sigma))
+                else:
+                    keys.problems["fixes before the first odometry, left out"] += 1
         run.rows, run.finished = len(log.seen), True
         for problem, times in keys.problems.items():
             self._problems[f"{run.name}: {problem}"] += times

@@ -143,8 +143,8 @@ def robot() -> Callable[..., Member]:
                 seen.append(Sighting(*place, 0.1, 0.01, kind, 0.95, called, number))
             evidence = sum((beliefs.likelihood(kind, 0.95) for _ in seen), np.zeros(8))
             x, y = graph.at(seen[0]).tolist()
-            first, last = seen[0].pose, seen[-1].pose
-            track = Track(number, evidence, x, y, seen[0].variance, first, last, seen, called)
+            track = Track(number, evidence, x, y, seen[0].variance,
+                          seen[0].pose, seen[-1].pose, seen, called)  # fmt: skip
             pieces.append(Piece(0, track, label))
         return Member(name, graph, way.copy(), (0.01, 0.01, 0.01), pieces)
 

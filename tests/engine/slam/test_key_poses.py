@@ -126,7 +126,7 @@ def test_a_sighting_waits_until_odometry_says_where_it_was_made() -> None:
     assert found.sighting(2.5, 4.0, 0.0, 0, 0.9) == []
     (seen,) = found.odometry(3.0, 3.0, 0.0, 0.0)
     assert seen.pose == 2
-    assert (seen.range, seen.bearing) == pytest.approx((4.5, 0.0))
+    assert (seen.range, seen.bearing) == pytest.approx((4.5, 0))
 
 
 def test_a_bearing_alone_turns_with_the_robot() -> None:
