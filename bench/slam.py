@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
@@ -49,9 +50,16 @@ def slam(seeds: int, poses: int, tiny: bool = False) -> str:
         seeds: missions in each world.
         poses: of the mission whose updates are timed.
         tiny: short missions in the town alone.
+
+    ``SLAM_PARTS`` in the environment chooses parts: names of worlds, ``mrclam``, ``online``,
+    ``memory``, with commas between.
     """
     chosen = {"town": replace(worlds()["town"], poses=150, robots=2)} if tiny else worlds()
-    results = {name: _all_ways(name, world, seeds) for name, world in chosen.items()}
+    parts = os.environ.get("SLAM_PARTS", "").split(",")
+    if parts != [""]:
+        chosen = {name: world for name, world in chosen.items() if name in parts}
+    failed: list[str] = []
+    results = {name: _all_ways(name, world, seeds, failed) for name, world in chosen.items()}
     return "\n\n".join(
         [
             "## Map building",
@@ -72,14 +80,15 @@ def slam(seeds: int, poses: int, tiny: bool = False) -> str:
                 ("Dead reckoning", {n: each["odometry"] for n, each in results.items()}),
             )),
             "" if tiny else _targets({name: each["ours"] for name, each in results.items()}),
-            mrclam(tiny),
-            online(poses, tiny),
-            town_memory(tiny),
+            "**Crashed, and in no table: " + "; ".join(failed) + "**" if failed else "",
+            mrclam(tiny) if parts == [""] or "mrclam" in parts else "",
+            online(poses, tiny) if parts == [""] or "online" in parts else "",
+            town_memory(tiny) if parts == [""] or "memory" in parts else "",
         ]
     )  # fmt: skip
 
 
-def _all_ways(name: str, world: World, seeds: int) -> dict[str, list[Result]]:
+def _all_ways(name: str, world: World, seeds: int, failed: list[str]) -> dict[str, list[Result]]:
     """Way to map -> its results, one a seed."""
     from symboslam.engine.slam.comparison import blind, measure
     from symboslam.engine.slam.dead_reckoning import dead_reckoned
@@ -95,8 +104,14 @@ def _all_ways(name: str, world: World, seeds: int) -> dict[str, list[Result]]:
     found: dict[str, list[Result]] = {way: [] for way in ways}
     for seed in range(seeds):
         mission = simulate(world, seed)
-        for way, make in ways.items():
-            found[way].append(_measured(measure, make, mission))
+        try:
+            every = {way: _measured(measure, make, mission) for way, make in ways.items()}
+        except Exception as broken:  # a crash is a result as well
+            failed.append(f"{name}, seed {seed}: {type(broken).__name__}: {broken}")
+            print(f"  {failed[-1]}", file=sys.stderr, flush=True)
+            continue
+        for way, result in every.items():
+            found[way].append(result)
         ours = found["ours"][-1]
         error = ours.score.error.mean if ours.score.error else float("nan")
         print(
@@ -122,6 +137,8 @@ def _table(name: str, ways: Mapping[str, Sequence[Result]]) -> str:
             "longest")  # fmt: skip
     rows = []
     for world, results in ways.items():
+        if not results:
+            continue
         raw, aligned = errors(results), errors(results, aligned=True)
         ate = _numbers(r.figures.ate_mean_m for r in results)
         seconds = _numbers(r.figures.seconds for r in results)
