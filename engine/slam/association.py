@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from itertools import count
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -30,11 +32,18 @@ class Association:
         graph: is changed; solved, with marginals, whenever a method is called.
         beliefs: what sightings say about classes.
         scale: how far apart landmarks are, and how far sensors reach.
+        numbers: labels that nobody has, for landmarks that are split off.
     """
 
-    def __init__(self, graph: JointGraph, beliefs: ClassBeliefs, scale: Scale) -> None:
+    def __init__(
+        self,
+        graph: JointGraph,
+        beliefs: ClassBeliefs,
+        scale: Scale,
+        numbers: Iterator[int] | None = None,
+    ) -> None:
         self.graph, self.beliefs, self.scale = graph, beliefs, scale
-        self._next = max(graph.labels(), default=-1) + 1
+        self._numbers = numbers or count(max(graph.labels(), default=-1) + 1)
 
     def take_stock(self) -> None:
         """Evidence and times of each landmark, as it is now."""
@@ -77,9 +86,9 @@ class Association:
             if fits[best] > 0 and square[best] < FITS:
                 changed += self._give(piece, self.labels[best])
             elif own > STRANGE and size[piece.label] > 1:
-                graph.xy[self._next] = where
-                changed += self._give(piece, self._next)
-                self._next += 1
+                label = next(self._numbers)
+                graph.xy[label] = where
+                changed += self._give(piece, label)
         return changed
 
     def _give(self, piece: Piece, label: int) -> int:

@@ -8,6 +8,7 @@ what they saw. A robot that is doubted is mapped again, with what the others hav
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import count
 
 from symboslam.engine.slam.association import Association
 from symboslam.engine.slam.beliefs import ClassBeliefs
@@ -61,7 +62,7 @@ class Joining:
         self.placed: list[int] = []
         self.lost = list(range(len(self.runs)))
         self.doubts: dict[int, list[str]] = {}
-        self._next = 0
+        self._numbers = count()
         self._named: dict[str, int] = {}
         self._members = [self._member(n, edge) for n, edge in enumerate(self.edges)]
         for edge in self.edges:
@@ -101,11 +102,12 @@ class Joining:
     def _repair(self) -> None:
         """Map those that are doubted again; keep that if it leaves fewer doubts."""
         before = self.graph, self.edges, self._members, self.doubts, self.placed
+        kept = [(m, m.poses, [piece.label for piece in m.pieces]) for m in self._members]
         doubted = list(self.doubts)
         trusted = [n for n in self.placed if n not in doubted]
         self.edges, self._members = list(self.edges), list(self._members)
         graph = self._solved([self._members[n] for n in trusted])
-        labels, known = _known(graph)
+        given, known = _known(graph)
         for number in doubted:
             self._progress(f"mapping {self.runs[number].name} again", 0.5)
             run = self.runs[number]
@@ -113,20 +115,25 @@ class Joining:
             start: Pose = run.start or (x, y, heading)
             edge = run.mapped_again(start, known)
             self.edges[number] = edge
-            self._members[number] = self._member(number, edge, labels)
+            self._members[number] = self._member(number, edge, given)
         self.placed = trusted + doubted
         self.graph = self._solved([self._members[n] for n in self.placed])
         self._look()
         if sum(map(len, self.doubts.values())) >= sum(map(len, before[3].values())):
             self.graph, self.edges, self._members, self.doubts, self.placed = before
+            for member, poses, labels in kept:
+                member.poses = poses
+                for piece, label in zip(member.pieces, labels, strict=True):
+                    piece.label = label
+            for number, member in enumerate(self.graph.members):
+                member.renumber(number)
 
     def _member(self, number: int, edge: EdgeMap, known: Sequence[int] = ()) -> Member:
         """A run as part of the graph; ``known`` are labels of landmarks that it was given."""
         labels = dict(enumerate(known))
         for landmark in edge.landmark_of.values():
             if landmark not in labels:
-                labels[landmark] = self._next
-                self._next += 1
+                labels[landmark] = next(self._numbers)
         member = self.runs[number].member(edge, number, labels)
         for piece in member.pieces:
             if piece.track.key:
@@ -154,7 +161,7 @@ class Joining:
             if not graph.labels():
                 break
             graph.marginals()
-            association = Association(graph, self._beliefs, scale)
+            association = Association(graph, self._beliefs, scale, self._numbers)
             changed = association.merge_near()
             merged, far = association.constellations()
             if not merged:
