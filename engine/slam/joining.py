@@ -25,6 +25,8 @@ from symboslam.engine.slam.settings import SlamSettings
 Progress = Callable[[str, float], None]
 """Is told what is done, and which share of it."""
 
+FULL = 50
+"""Iterations of a solution that has far to go, or that is the last, at most."""
 WELL = 5
 """A landmark seen so often by others is one to go by."""
 
@@ -155,7 +157,7 @@ class Joining:
         for turn in range(settings.rounds):
             self._progress("merging", turn / settings.rounds)
             if far:
-                graph.solve(0)
+                graph.solve(0, FULL)
             find_meetings(graph)
             graph.solve(settings.kernel)
             if not graph.labels():
@@ -168,6 +170,9 @@ class Joining:
                 changed += association.move()
             if changed + merged <= turn // 4:
                 break
+        if graph.labels():
+            graph.solve(settings.kernel, FULL)
+            graph.marginals()
         return graph
 
 

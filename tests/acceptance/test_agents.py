@@ -20,6 +20,8 @@ from symboslam.engine.slam.simulate import World, simulate
 from tests.service.conftest import ADMIN, TOKEN
 from tests.service.test_durability import serve
 
+pytestmark = pytest.mark.proof
+
 NAMES = (
     "House",
     "Bakery",

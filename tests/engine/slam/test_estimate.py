@@ -15,6 +15,8 @@ from symboslam.engine.slam.planar import compose
 from symboslam.engine.slam.simulate import World, simulate
 from symboslam.engine.slam.slam_map import SlamMap
 
+pytestmark = pytest.mark.proof
+
 SMALL = World(robots=2, poses=200, side=300.0, landmarks=60, classes=12, reach=60.0, known_starts=2)
 SEED = 1
 

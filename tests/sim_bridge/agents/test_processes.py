@@ -23,6 +23,8 @@ from symboslam.errors import InputError
 from tests.service.conftest import ADMIN, TOKEN
 from tests.service.test_durability import serve
 
+pytestmark = pytest.mark.proof
+
 ROOT = Path(__file__).parents[3]
 HOUSES = [(float(x), float(y)) for x in range(10, 100, 20) for y in (10, 30)]
 
@@ -192,7 +194,7 @@ def test_robots_of_one_name_and_signals(agents: Agents, tmp_path: Path) -> None:
         runs = client.get(f"/v1/maps/{which}/robots").json()
         assert [each["finished"] for each in runs] == [True, True]
         time.sleep(0.7)
-        control.send_signal(signal.SIGINT)
+        control.send_signal(signal.SIGTERM)
         said = control.communicate(timeout=60)[1]
         assert control.returncode == 130, said
         assert "two robots at a time are called r1" in said
