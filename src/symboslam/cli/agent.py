@@ -11,6 +11,7 @@ from symboslam.cli import agent_edge
 from symboslam.cli.agent_edge import QuietOption, ToOption, tell
 from symboslam.cli.client import TimeoutOption, TokenOption
 from symboslam.cli.common import OntologyOption, load_knowledge, progress_bar
+from symboslam.cli.slam_common import needs_slam
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -64,10 +65,11 @@ def control(
     It keeps nothing itself, and may be killed and started again at any time. It tells what is
     missing, who has gone silent, who bears the same name, and why a map should not be trusted.
     """
-    from symboslam.engine.slam.control import CollectiveMap
-    from symboslam.sim_bridge.agents.classes import Classes
-    from symboslam.sim_bridge.agents.control import ControlAgent, ControlSettings, keep
-    from symboslam.sim_bridge.agents.link import Link
+    with needs_slam():
+        from symboslam.engine.slam.control import CollectiveMap
+        from symboslam.sim_bridge.agents.classes import Classes
+        from symboslam.sim_bridge.agents.control import ControlAgent, ControlSettings, keep
+        from symboslam.sim_bridge.agents.link import Link
 
     link = Link(to, token, timeout)
     settings = ControlSettings(name, every, tolerance, patience, silent, robots)

@@ -16,6 +16,7 @@ import typer
 
 from symboslam.cli.client import TimeoutOption, TokenOption
 from symboslam.cli.common import OntologyOption, Progress, load_knowledge, progress_bar
+from symboslam.cli.slam_common import needs_slam
 from symboslam.errors import InputError, ServiceError
 
 EXAMPLES = """
@@ -119,13 +120,15 @@ def edge(
     the service refuses it; 3: it was not delivered in time and waits in the spool.
     """  # fmt: skip
     from symboslam import __version__
-    from symboslam.engine.slam.edge import EdgeMapper
-    from symboslam.sim_bridge.agents import records, replay
-    from symboslam.sim_bridge.agents.classes import Classes
-    from symboslam.sim_bridge.agents.edge import EdgeAgent
-    from symboslam.sim_bridge.agents.link import Link
-    from symboslam.sim_bridge.agents.sender import Sender, check_map
-    from symboslam.sim_bridge.agents.spool import Spool
+
+    with needs_slam():
+        from symboslam.engine.slam.edge import EdgeMapper
+        from symboslam.sim_bridge.agents import records, replay
+        from symboslam.sim_bridge.agents.classes import Classes
+        from symboslam.sim_bridge.agents.edge import EdgeAgent
+        from symboslam.sim_bridge.agents.link import Link
+        from symboslam.sim_bridge.agents.sender import Sender, check_map
+        from symboslam.sim_bridge.agents.spool import Spool
 
     live, begin, link = log == "-", _start(start), Link(to, token, timeout)
     if run is None and live:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -104,18 +105,29 @@ def write_outs(
     return files, notes
 
 
+@contextmanager
+def needs_slam() -> Iterator[None]:
+    """Imports of what map building needs.
+
+    Raises:
+        MissingExtraError: it is not installed.
+    """
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        if error.name in ("gtsam", "httpx", "networkx"):
+            raise MissingExtraError(error.name, "slam") from error
+        raise
+
+
 def estimator() -> Callable[..., SlamMap]:
     """Our way to build maps.
 
     Raises:
         MissingExtraError: what it needs is not installed.
     """
-    try:
+    with needs_slam():
         from symboslam.engine.slam.estimate import estimate
-    except ModuleNotFoundError as error:
-        if error.name in ("gtsam", "networkx"):
-            raise MissingExtraError(error.name, "slam") from error
-        raise
     made: Callable[..., SlamMap] = estimate
     return made
 
