@@ -49,6 +49,8 @@ def outcome(
     ]
     for label in once:
         del groups[label]
+    if once:
+        notes = [*notes, f"things seen once before others were seen often, left out: {len(once)}"]
     labels = sorted(groups)
     landmarks = _landmarks(graph, groups, labels, dynamic, similarity)
     row = {label: n for n, label in enumerate(labels)}
