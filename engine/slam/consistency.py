@@ -16,6 +16,9 @@ UNMET = 0.3
 """Share of robots seen that are where no robot is, from which a robot is doubted."""
 LOST = 0.15
 """Share of a robot's sightings that are of nothing seen again, from which it is doubted."""
+VAGUE = 0.2
+"""A landmark is vague if its standard deviation is more than this share of what the sensor reaches;
+a map is, if more than this share of its landmarks are."""
 WINDOW = 30
 """Steps over which odometry is compared with the map."""
 BENT = 12.0
@@ -63,6 +66,26 @@ def doubts(graph: JointGraph, edges: list[EdgeMap]) -> list[list[str]]:
                 f"a robot is"
             )
     return every
+
+
+def vagueness(graph: JointGraph, reach: float) -> list[str]:
+    """Why a map that fits should not be trusted all the same: too little was seen twice.
+
+    Args:
+        graph: solved, with marginals.
+        reach: metres that the sensor reaches.
+    """
+    far = sum(
+        float(np.linalg.eigvalsh(each)[-1]) ** 0.5 > VAGUE * reach
+        for each in graph.covariance.values()
+    )
+    total = len(graph.covariance)
+    if far <= VAGUE * total:
+        return []
+    return [
+        f"{far} of {total} landmarks may be off by more than {VAGUE * reach:.0f} m (one standard "
+        f"deviation): too little was seen again"
+    ]
 
 
 def misfits(graph: JointGraph) -> list[tuple[float, int]]:

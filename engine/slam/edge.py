@@ -149,6 +149,7 @@ class EdgeMapper:
         joining = Joining(runs, edges, self._similarity, self._settings, lambda what, share: None)
         joining.join()
         said = [sentence for each in joining.doubts.values() for sentence in each]
+        said += joining.vague
         return outcome(joining, self._dynamic, self._similarity, said, self.notes)
 
 

@@ -12,7 +12,7 @@ from itertools import count
 
 from symboslam.engine.slam.association import Association
 from symboslam.engine.slam.beliefs import ClassBeliefs
-from symboslam.engine.slam.consistency import doubts
+from symboslam.engine.slam.consistency import doubts, vagueness
 from symboslam.engine.slam.edge_map import EdgeMap, Known
 from symboslam.engine.slam.joint import JointGraph, Member
 from symboslam.engine.slam.log import Floats, Pose
@@ -47,6 +47,7 @@ class Joining:
         placed: numbers of their runs.
         lost: numbers of runs that could not be placed.
         doubts: number of a run -> why it should not be trusted; only those with doubts.
+        vague: why the whole map should not be trusted, though it fits.
     """
 
     def __init__(
@@ -64,6 +65,7 @@ class Joining:
         self.placed: list[int] = []
         self.lost = list(range(len(self.runs)))
         self.doubts: dict[int, list[str]] = {}
+        self.vague: list[str] = []
         self._numbers = count()
         self._named: dict[str, int] = {}
         self._members = [self._member(n, edge) for n, edge in enumerate(self.edges)]
@@ -90,6 +92,7 @@ class Joining:
         self._look()
         if self.doubts and len(self.doubts) < len(self.placed):
             self._repair()
+        self.vague = vagueness(self.graph, self._scale.reach)
 
     def _add(self, numbers: Sequence[int]) -> None:
         self.placed += numbers

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from symboslam.engine.slam.consistency import bending, doubts, misfits
+from symboslam.engine.slam.consistency import bending, doubts, misfits, vagueness
 from symboslam.engine.slam.joint import JointGraph, Member
 from symboslam.engine.slam.log import ROBOT
 from symboslam.engine.slam.pose_graph import Sighting
@@ -81,3 +81,16 @@ def test_robots_seen_where_none_is_are_doubted(robot: Any) -> None:
     first, second = said(one, other)
     assert first == ["one: of 30 robots that it saw, only 0 are where a robot is"]
     assert second == []
+
+
+def test_a_map_that_fits_but_is_vague_is_doubted() -> None:
+    graph = JointGraph([], SlamSettings(), 5.0)
+    graph.covariance = {n: np.diag([1.0, 1.0]) for n in range(7)}
+    graph.covariance |= {n: np.diag([0.1, 4.1]) for n in range(7, 9)}
+    assert vagueness(graph, 10.0) == [
+        "2 of 9 landmarks may be off by more than 2 m (one standard deviation): "
+        "too little was seen again"
+    ]
+    assert vagueness(graph, 10.2) == []
+    graph.covariance[9] = np.eye(2)  # two of ten are no more than a fifth
+    assert vagueness(graph, 10.0) == []
