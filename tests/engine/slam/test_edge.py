@@ -1,0 +1,123 @@
+"""EdgeMapper and what CollectiveMap makes of its increments, in whatever order they come."""
+
+import random
+
+import numpy as np
+import pytest
+
+pytest.importorskip("gtsam", reason="needs symboslam[slam]")
+
+from symboslam.engine.slam.control import CollectiveMap
+from symboslam.engine.slam.edge import EdgeMapper
+from symboslam.engine.slam.increment import EdgeIncrement
+from symboslam.engine.slam.log import Mission, RobotLog
+from symboslam.engine.slam.simulate import World, simulate
+
+SMALL = World(robots=2, poses=120, side=300.0, landmarks=40, classes=8, misclassified=0.0)
+
+
+@pytest.fixture(scope="module")
+def mission() -> Mission:
+    return simulate(SMALL, 1)
+
+
+def increments(
+    mission: Mission, log: RobotLog, run: str = "a", robot: str = ""
+) -> list[EdgeIncrement]:
+    """Those of one robot, one for every 20 rows of odometry, as they come over the wire."""
+    seen = log.seen
+    mapper = EdgeMapper(
+        robot or log.name, mission.classes, mission.dynamic, run=run, start=log.start,
+        start_sigma=log.start_sigma, noise=log.odometry.noise, sigma_range=seen.sigma_range,
+        sigma_bearing=seen.sigma_bearing,
+    )  # fmt: skip
+    found, row = [], 0
+    for n, (time, pose) in enumerate(
+        zip(log.odometry.time.tolist(), log.odometry.pose.tolist(), strict=True)
+    ):
+        mapper.odometry(time, tuple(pose))
+        while row < len(seen) and seen.time[row] <= time:
+            mapper.sighting(
+                seen.time[row].item(), seen.range[row].item(), seen.bearing[row].item(),
+                int(seen.feature[row]), seen.confidence[row].item(),
+            )  # fmt: skip
+            row += 1
+        if n % 20 == 19:
+            found.append(mapper.increment())
+    found.append(mapper.increment(last=True))
+    assert not mapper.notes
+    return [EdgeIncrement.from_json(each.to_json()) for each in found if each is not None]
+
+
+def collective(mission: Mission, arrived: list[EdgeIncrement]) -> CollectiveMap:
+    found = CollectiveMap(mission.classes, mission.dynamic, mission.similarity)
+    for each in arrived:
+        found.add(each)
+    return found
+
+
+def test_everything_of_a_log_is_in_its_increments_once(mission: Mission) -> None:
+    log = mission.robots[0]
+    found = increments(mission, log)
+    assert [each.sequence for each in found] == list(range(len(found)))
+    assert [each.last for each in found] == [False] * (len(found) - 1) + [True]
+    rows = np.concatenate([each.row for each in found])
+    assert sorted(rows.tolist()) == list(range(len(log.seen)))
+    times = np.concatenate([each.time for each in found])
+    assert times.tolist() == sorted(set(times.tolist()))
+
+
+def test_order_and_repetition_do_not_matter(mission: Mission) -> None:
+    one, two = (increments(mission, log) for log in mission.robots)
+    straight = collective(mission, one + two)
+    expected = straight.solve()
+    rest = [*one[1:], *two, *two[:2]]
+    random.Random(2).shuffle(rest)
+    mixed = collective(mission, [one[0], *rest])  # the robots keep their order
+    found = mixed.solve()
+    np.testing.assert_array_equal(found.landmarks.xy, expected.landmarks.xy)
+    assert mixed.notes == ["increments of robot 2 that had come before, left out: 2"]
+    assert straight.notes == []
+
+
+def test_what_comes_after_a_gap_waits(mission: Mission) -> None:
+    one = increments(mission, mission.robots[0])
+    found = collective(mission, one[:2] + one[3:])
+    assert found.notes == ["robot 1: increments 2 are missing; later ones wait"]
+    until = one[1].time[-1]
+    assert found.solve().trajectories["robot 1"].time[-1] == until
+    found.add(one[2])
+    assert found.notes == []
+    assert found.solve().trajectories["robot 1"].time[-1] == one[-2].time[-1]
+
+
+def test_two_robots_of_one_name_are_kept_apart(mission: Mission) -> None:
+    one, two = mission.robots
+    arrived = increments(mission, one, "a", "r") + increments(mission, two, "b", "r")
+    found = collective(mission, arrived)
+    assert set(found.solve().trajectories) == {"r", "r (2)"}
+    assert found.notes == ["another run calls itself r; it is kept apart as r (2): 1"]
+
+
+def test_a_robot_that_disappears_leaves_its_part(mission: Mission) -> None:
+    one, two = (increments(mission, log) for log in mission.robots)
+    found = collective(mission, one + two[:3]).solve()
+    assert len(found.trajectories["robot 1"].time) == SMALL.poses
+    assert len(found.trajectories["robot 2"].time) == 60
+
+
+def test_fixes_that_cannot_be_are_told() -> None:
+    mapper = EdgeMapper("r", ["House"], np.array([False]))
+    mapper.fix(0.0, 1.0, 2.0, 1.0)
+    mapper.odometry(0.0, (0.0, 0.0, 0.0))
+    mapper.fix(1.0, float("nan"), 2.0, 1.0)
+    mapper.fix(1.0, 1.0, 2.0, 0.0)
+    assert mapper.notes == [
+        "positions from outside before the first odometry, left out: 1",
+        "positions from outside that cannot be, left out: 2",
+    ]
+    assert mapper.increment() is not None
+    assert mapper.increment() is None
+    last = mapper.increment(last=True)
+    assert last is not None
+    assert (last.last, len(last.time)) == (True, 0)
