@@ -1,7 +1,8 @@
 """KeyPoses: turns what a robot reports, row by row, into key poses and sightings made from them.
 
 A key pose is made at most every ``interval`` seconds, on a grid that all robots share, and only if
-the robot moved. What was seen in between is carried to the key pose before it by odometry.
+the robot moved. What was seen in between is carried to the key pose before it by odometry; a range
+or a bearing alone cannot be, and gets a key pose of its own.
 """
 
 from __future__ import annotations
@@ -15,13 +16,14 @@ from collections.abc import Iterator
 import numpy as np
 
 from symboslam.engine.slam.log import OdometryNoise, RobotLog
-from symboslam.engine.slam.pose_graph import PoseGraph, Sighting
+from symboslam.engine.slam.pose_graph import Fix, PoseGraph, Sighting
 
 STILL = 0.01, math.radians(0.5)
 """A robot that moved less (metres, radians) stands still."""
 AFTER = 1.0
 """Seconds for which the last odometry holds."""
-TINY = 1e-9
+TINY = 1e-6
+"""Seconds; times since 1970 are no finer."""
 
 Planar = tuple[float, float, float]
 Row = tuple[float, int, float, float, int, float, str]
@@ -77,7 +79,7 @@ class KeyPoses:
         found = []
         if tick > self._key[0] + TINY and _moved(self._key[1], self._odometry_at(tick)):
             tick = max(tick, before)
-            found = self._settled(tick - TINY)
+            found = self._settled(tick - 2 * TINY)
             self._append(tick, self._odometry_at(tick))
         return found + self._settled(time)
 
@@ -108,6 +110,16 @@ class KeyPoses:
             return self._settled(self._to[0])
         return []
 
+    def fix(self, time: float, x: float, y: float, sigma: float) -> None:
+        """A position from outside, of the key pose before it."""
+        if not math.isfinite(time + x + y + sigma) or sigma <= 0:
+            self.problems["positions from outside that cannot be, left out"] += 1
+        elif not len(self.graph) or time < self.graph.time[0] - TINY:
+            self.problems["positions from outside before the first odometry, left out"] += 1
+        else:
+            pose = bisect.bisect_right(self.graph.time, time + TINY) - 1
+            self.graph.fixes.append(Fix(max(pose, 0), x, y, sigma))
+
     def finish(self) -> list[Sighting]:
         """The sightings after the last odometry, placed at its end."""
         found = self._settled(self._to[0] + AFTER)
@@ -134,8 +146,11 @@ class KeyPoses:
     def _carried(self, row: Row) -> Sighting:
         time, number, reach, bearing, feature, confidence, key = row
         if time >= self._key[0] - TINY:
+            at = self._odometry_at(min(time, self._to[0]))
+            if (math.isnan(reach) or math.isnan(bearing)) and _moved(self._key[1], at):
+                self._append(time, at)
             pose = len(self.graph) - 1
-            dx, dy, turn = _step(self._key[1], self._odometry_at(min(time, self._to[0])))
+            dx, dy, turn = _step(self._key[1], at)
         else:
             pose = max(bisect.bisect_right(self.graph.time, time + TINY) - 1, 0)
             share = (time - self.graph.time[pose]) / max(

@@ -129,13 +129,23 @@ def test_a_sighting_waits_until_odometry_says_where_it_was_made() -> None:
     assert (seen.range, seen.bearing) == pytest.approx((4.5, 0))
 
 
-def test_a_bearing_alone_turns_with_the_robot() -> None:
+def test_a_bearing_alone_gets_a_key_pose_of_its_own() -> None:
     found = keys(10)
     found.odometry(0, 0, 0, 0)
     found.sighting(1, math.nan, 0.3, 0, 0.9)
     (seen,) = found.odometry(2, 0, 0, 1.0)
     assert math.isnan(seen.range)
-    assert seen.bearing == pytest.approx(0.8)
+    assert (seen.pose, seen.bearing) == (1, 0.3)
+    assert found.graph.time == [0, 1]
+    assert found.graph.odometry[1].tolist() == pytest.approx([0, 0, 0.5])
+
+
+def test_what_is_seen_at_a_key_pose_is_seen_from_it() -> None:
+    found = keys(0.5)
+    found.odometry(1.2e9, 0, 0, 0)
+    found.sighting(1.2e9 + 1, math.nan, 0.3, 0, 0.9)
+    (seen,) = found.odometry(1.2e9 + 1, 5, 0, 0)
+    assert (seen.pose, len(found.graph)) == (1, 2)
 
 
 def told(found: KeyPoses) -> dict[str, int]:
