@@ -13,7 +13,7 @@ from symboslam.engine.slam.beliefs import ClassBeliefs
 from symboslam.engine.slam.constellation import Placing, Things, match
 from symboslam.engine.slam.joint import JointGraph, Piece
 from symboslam.engine.slam.log import Floats
-from symboslam.engine.slam.scale import Scale
+from symboslam.engine.slam.scale import Scale, together
 
 WINDOW = 1.4
 """A window of tracks is this many times as wide as tracks wait for (``hold``)."""
@@ -62,8 +62,7 @@ class Association:
 
     def _together(self, one: int, other: int) -> bool:
         """Whether two landmarks were seen beside each other, and so are two."""
-        a, b = self.times[one], self.times[other]
-        return len(a & b) > 0.05 * min(len(a), len(b))
+        return together(self.times[one], self.times[other])
 
     def move(self) -> int:
         """Give tracks to the landmarks that they fit, split off those that fit none; how many."""

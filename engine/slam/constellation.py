@@ -93,9 +93,7 @@ def match(
         allowed: (n, m) which pairs may be the same; None for all.
         rival: log odds by which others have to be worse to be no rivals.
     """
-    candidates = _Candidates(here, there, alike, placing, tolerance, spacing, allowed)
-    candidates.rival = rival
-    return candidates.matches()
+    return _Candidates(here, there, alike, placing, tolerance, spacing, allowed, rival).matches()
 
 
 class _Candidates:
@@ -108,6 +106,7 @@ class _Candidates:
         tolerance: Floats,
         spacing: float,
         allowed: NDArray[np.bool_] | None,
+        rival: float,
     ) -> None:
         near = alike > 0
         if allowed is not None:
@@ -127,7 +126,7 @@ class _Candidates:
         self.free = not np.isfinite(placing.variance).all()
         self.tolerance = tolerance
         self.size = len(here.xy)
-        self.rival = 2.3
+        self.rival = rival
 
     def matches(self) -> list[Match]:
         graph = self._graph()

@@ -13,18 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symboslam.engine.slam.increment import EdgeIncrement
-from symboslam.engine.slam.joining import Joining, Progress
+from symboslam.engine.slam.joining import Joining, Progress, silent
 from symboslam.engine.slam.key_poses import KeyPoses, replay
 from symboslam.engine.slam.log import Floats, RobotLog
 from symboslam.engine.slam.outcome import outcome
-from symboslam.engine.slam.pose_graph import Fix
 from symboslam.engine.slam.run import Run
 from symboslam.engine.slam.settings import SlamSettings
 from symboslam.engine.slam.slam_map import SlamMap
-
-
-def _silent(what: str, share: float) -> None:
-    pass
 
 
 class CollectiveMap:
@@ -56,7 +51,7 @@ class CollectiveMap:
         if not run.add(increment):
             self._problems[f"increments of {run.name} that had come before, left out"] += 1
 
-    def add_log(self, log: RobotLog, progress: Progress = _silent) -> None:
+    def add_log(self, log: RobotLog, progress: Progress = silent) -> None:
         """Take over the whole log of one robot."""
         run = self._run(log.name, f"log {len(self._runs)}")
         run.start, run.start_sigma, run.closures = log.start, log.start_sigma, log.closures
@@ -71,15 +66,10 @@ class CollectiveMap:
         for n, _ in enumerate(replay(log, keys)):
             if n % 1000 == 0:
                 progress(f"reading {log.name}", n / total)
-        if log.fixes is not None and len(run.graph):
-            at = np.searchsorted(run.graph.time, log.fixes.time + 1e-6) - 1
-            for pose, (x, y), sigma in zip(
-                at.tolist(), log.fixes.xy.tolist(), log.fixes.sigma.tolist(), strict=True
-            ):
-                if pose >= 0:
-                    run.graph.fixes.append(Fix(pose, x, y, sigma))
-                else:
-                    keys.problems["fixes before the first odometry, left out"] += 1
+        if log.fixes is not None:
+            columns = log.fixes.time.tolist(), log.fixes.xy.tolist(), log.fixes.sigma.tolist()
+            for time, (x, y), sigma in zip(*columns, strict=True):
+                keys.fix(time, x, y, sigma)
         run.rows, run.finished = len(log.seen), True
         for problem, times in keys.problems.items():
             self._problems[f"{run.name}: {problem}"] += times
@@ -96,7 +86,7 @@ class CollectiveMap:
                 said.append(f"{run.name}: class {label} is not known; left out {times} sightings")
         return said
 
-    def solve(self, progress: Progress = _silent) -> SlamMap:
+    def solve(self, progress: Progress = silent) -> SlamMap:
         """The map of all that has come."""
         runs = [run for run in self._runs.values() if len(run.graph)]
         edges = []

@@ -8,11 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symboslam.engine.slam.increment import EdgeIncrement
-from symboslam.engine.slam.joining import Joining
+from symboslam.engine.slam.joining import Joining, silent
 from symboslam.engine.slam.key_poses import KeyPoses
 from symboslam.engine.slam.log import ROBOT, OdometryNoise, Pose
 from symboslam.engine.slam.outcome import outcome
-from symboslam.engine.slam.pose_graph import Fix
 from symboslam.engine.slam.run import Run
 from symboslam.engine.slam.settings import SlamSettings
 from symboslam.engine.slam.slam_map import SlamMap
@@ -91,13 +90,7 @@ class EdgeMapper:
 
     def fix(self, time: float, x: float, y: float, sigma: float) -> None:
         """Where it was told to be, in the collective frame."""
-        if not np.isfinite([time, x, y, sigma]).all() or sigma <= 0:
-            self._keys.problems["positions from outside that cannot be, left out"] += 1
-        elif not len(self.graph) or time < self.graph.time[0]:
-            self._keys.problems["positions from outside before the first odometry, left out"] += 1
-        else:
-            number = int(np.searchsorted(self.graph.time, time + 1e-6)) - 1
-            self.graph.fixes.append(Fix(max(number, 0), x, y, sigma))
+        self._keys.fix(time, x, y, sigma)
 
     def increment(self, last: bool = False) -> EdgeIncrement | None:
         """What is new since the last call; None if nothing is, unless it is the last."""
@@ -146,7 +139,7 @@ class EdgeMapper:
         """The robot's own map, as it is now."""
         edge = self._run.edge_map()
         runs, edges = ([self._run], [edge]) if edge is not None else ([], [])
-        joining = Joining(runs, edges, self._similarity, self._settings, lambda what, share: None)
+        joining = Joining(runs, edges, self._similarity, self._settings, silent)
         joining.join()
         said = [sentence for each in joining.doubts.values() for sentence in each]
         said += joining.vague

@@ -22,7 +22,7 @@ from symboslam.engine.slam.constellation import Placing, Things, match
 from symboslam.engine.slam.log import ROBOT, Floats, Pose
 from symboslam.engine.slam.planar import between, compose, place
 from symboslam.engine.slam.pose_graph import Fix, PoseGraph, Sighting
-from symboslam.engine.slam.scale import Scale
+from symboslam.engine.slam.scale import Scale, together
 from symboslam.engine.slam.settings import SlamSettings
 from symboslam.engine.slam.tracks import Track, Tracker
 
@@ -367,8 +367,7 @@ class EdgeMap:
 
     def _together(self, one: int, other: int) -> bool:
         """Whether two landmarks were seen beside each other, and so are two."""
-        a, b = self._frames[one], self._frames[other]
-        return len(a & b) > 0.05 * min(len(a), len(b))
+        return together(self._frames[one], self._frames[other])
 
     def _merge(self, keep: int, gone: int, sigma: float) -> None:
         one, other = factors.landmark_key(keep), factors.landmark_key(gone)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from symboslam.engine.slam.control import CollectiveMap
-from symboslam.engine.slam.joining import Progress
+from symboslam.engine.slam.joining import Progress, silent
 from symboslam.engine.slam.log import Mission
 from symboslam.engine.slam.settings import SlamSettings
 from symboslam.engine.slam.slam_map import SlamMap
@@ -19,10 +19,6 @@ def estimate(
         settings: of map building.
         progress: is told what is done, and which share of it.
     """
-
-    def silent(what: str, share: float) -> None:
-        pass
-
     told = progress or silent
     collective = CollectiveMap(mission.classes, mission.dynamic, mission.similarity, settings)
     for log in mission.robots:

@@ -25,6 +25,11 @@ from symboslam.engine.slam.settings import SlamSettings
 Progress = Callable[[str, float], None]
 """Is told what is done, and which share of it."""
 
+
+def silent(what: str, share: float) -> None:
+    """Tell nobody."""
+
+
 FULL = 50
 """Iterations of a solution that has far to go, or that is the last, at most."""
 WELL = 5

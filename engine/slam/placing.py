@@ -44,6 +44,8 @@ def place_lost(
         return None
     for number, member in enumerate(lost):
         named = _by_names(graph, member)
+        if named is None:
+            named = _by_bearings(graph, member)
         found = (math.inf, named) if named is not None else _by_class(graph, member, beliefs, scale)
         if found is not None and (best is None or found[0] > best[0]):
             best = found[0], number, found[1]
@@ -64,6 +66,21 @@ def _by_names(graph: JointGraph, member: Member) -> Floats | None:
     if np.ptp(here, axis=0).max() < 0.1 * graph.spacing:
         return None
     return compose(rigid(here, there), member.poses)
+
+
+def _by_bearings(graph: JointGraph, member: Member) -> Floats | None:
+    """(n, 3) poses by bearings alone of three or more things with names, from one key pose."""
+    named = {piece.track.key: graph.xy[piece.label] for piece in graph.pieces if piece.track.key}
+    seen: dict[int, dict[str, float]] = {}
+    for sighting in member.graph.sightings:
+        if sighting.key in named and not math.isnan(sighting.bearing):
+            seen.setdefault(sighting.pose, {})[sighting.key] = sighting.bearing
+    number = max(seen, key=lambda pose: len(seen[pose]), default=-1)
+    if number < 0 or len(seen[number]) < LEAST:
+        return None
+    landmarks = np.array([named[key] for key in seen[number]])
+    pose = resection(landmarks, np.array(list(seen[number].values())))
+    return compose(pose, between(member.poses[number], member.poses))
 
 
 def _by_class(
@@ -125,27 +142,20 @@ def _agreed(
     return best
 
 
-def resection(landmarks: Floats, bearing: Floats, reach: Floats | None = None) -> Floats:
-    """(3,) where a robot is that sees (k, 2) known landmarks, k >= 3, or 2 with ranges.
+def resection(landmarks: Floats, bearing: Floats) -> Floats:
+    """(3,) where a robot is that sees known landmarks in some directions.
 
-    With ranges the rigid motion of least squares; with bearings alone the best of many starts,
-    refined by Gauss-Newton.
+    The best of many starts, in the least squares of the bearings.
 
     Args:
-        landmarks: (k, 2) metres.
+        landmarks: (k, 2) metres, k >= 3.
         bearing: (k,) radians from its heading.
-        reach: (k,) metres; None for bearings alone.
 
     Raises:
         ValueError: too few landmarks.
     """
-    if reach is not None:
-        if len(landmarks) < 2:
-            raise ValueError("resection with ranges needs two landmarks")
-        seen = np.column_stack([reach * np.cos(bearing), reach * np.sin(bearing)])
-        return rigid(seen, landmarks)
     if len(landmarks) < LEAST:
-        raise ValueError("resection with bearings alone needs three landmarks")
+        raise ValueError("resection needs three landmarks")
     from scipy.optimize import least_squares
 
     def miss(pose: Floats) -> Floats:

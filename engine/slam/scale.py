@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Hashable, Set
 
 import numpy as np
 
@@ -13,8 +14,20 @@ MISSED = 0.4
 """Log odds for each time that of two landmarks at one place only one was seen."""
 ENOUGH = 20
 """So many such times count."""
+MISTAKEN = 0.05
+"""Share of the moments of a landmark in which a sighting may be of another."""
 LARGE = 13.8
 """Squared Mahalanobis distance beyond which two are not one (chi-square, 2 degrees, 0.1 %)."""
+
+
+def together(one: Set[Hashable], other: Set[Hashable]) -> bool:
+    """Whether two landmarks were seen beside each other, and so are two.
+
+    Args:
+        one: the moments at which one was seen.
+        other: those of the other; a twentieth of the fewer may be mistakes.
+    """
+    return len(one & other) > MISTAKEN * min(len(one), len(other))
 
 
 class Scale:

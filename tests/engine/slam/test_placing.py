@@ -7,7 +7,8 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from symboslam.engine.slam.log import Floats
+from symboslam.engine.slam.control import CollectiveMap
+from symboslam.engine.slam.log import Floats, Measurements, Odometry, Pose, RobotLog
 from symboslam.engine.slam.placing import resection
 from symboslam.engine.slam.planar import between, wrap
 
@@ -25,10 +26,35 @@ def assert_same(found: Floats, pose: tuple[float, float, float]) -> None:
     assert float(wrap(found[2] - pose[2])) == pytest.approx(0, abs=1e-4)
 
 
-@given(PLACE, PLACE, st.floats(-3, 3), st.integers(2, 3))
-def test_resection_by_ranges_and_bearings(x: float, y: float, turn: float, k: int) -> None:
-    bearing, reach = seen_from((x, y, turn), MARKS[:k])
-    assert_same(resection(MARKS[:k], bearing, reach), (x, y, turn))
+def log_of(name: str, path: Floats, start: Pose | None, *, ranges: bool) -> RobotLog:
+    """A robot that sees the marks all the time, and reads their signs."""
+    rows = [
+        (float(t), float(d) if ranges else math.nan, float(b), f"sign {n}")
+        for t, pose in enumerate(path)
+        for n, (b, d) in enumerate(zip(*seen_from(tuple(pose), MARKS), strict=True))
+    ]
+    time, reach, bearing, key = (np.array(column) for column in zip(*rows, strict=True))
+    seen = Measurements(
+        time, reach, bearing, np.zeros(len(rows), np.int64), np.full(len(rows), 0.9),
+        key.astype(object), 0.1, 0.01,
+    )  # fmt: skip
+    odometry = Odometry(np.arange(len(path), dtype=float), between(path[0], path))
+    return RobotLog(name, odometry, seen, start)
+
+
+def test_a_lost_robot_is_placed_by_bearings_of_three_signs() -> None:
+    path = np.array([(-6.0 + n, -4.0, 0.3) for n in range(8)])
+    other = np.array([(12.0 - n, 12.0, -2.0) for n in range(8)])
+    one = log_of("one", path, (-6.0, -4.0, 0.3), ranges=True)
+    two = log_of("two", other, None, ranges=False)
+    collective = CollectiveMap(["Sign"], np.array([False]), np.eye(1))
+    collective.add_log(one)
+    collective.add_log(two)
+    found = collective.solve()
+    assert len(found.landmarks) == 3
+    for n, pose in enumerate(found.trajectories["two"].pose):
+        assert pose[:2] == pytest.approx(other[n, :2], abs=0.2)
+        assert float(wrap(pose[2] - other[n, 2])) == pytest.approx(0, abs=0.05)
 
 
 @settings(deadline=None, max_examples=10)
@@ -46,7 +72,5 @@ def test_resection_by_three_bearings(x: float, y: float, turn: float) -> None:
 
 
 def test_too_few_landmarks_are_refused() -> None:
-    with pytest.raises(ValueError, match="needs two landmarks"):
-        resection(MARKS[:1], np.zeros(1), np.ones(1))
     with pytest.raises(ValueError, match="needs three landmarks"):
         resection(MARKS[:2], np.zeros(2))
