@@ -1,0 +1,570 @@
+"""Animals, nose to +x."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from symboslam.sim_bridge.objects.draw import Draw
+from symboslam.sim_bridge.objects.parts import Colour, Model, Point
+
+DARK: Colour = (36, 32, 30)
+
+
+def legs(
+    m: Model,
+    xs: tuple[float, float],
+    half: float,
+    top: float,
+    r: float,
+    colour: Colour,
+    hoof: Colour,
+    *,
+    step: float = 0.0,
+    bend: float = 0.0,
+) -> None:
+    """Four legs from ``top`` to the ground; the hind ones bend back by ``bend``."""
+    for x, back in zip(xs, (bend, 0.0), strict=True):
+        for s in (-1, 1):
+            stride = s * step * (1 if x < 0 else -1)
+            knee = (x - back + stride * 0.4, s * half, top * 0.45)
+            foot = (x + stride, s * half, r * 0.7)
+            m.tube(
+                [(x + back * 0.4, s * half, top), knee, foot],
+                [r * 1.6, r * 0.9, r * 0.75],
+                colour,
+                n=5,
+            )
+            m.rod((foot[0], foot[1], 0), (foot[0], foot[1], r * 1.6), r * 0.95, hoof, n=5)
+
+
+def ears(m: Model, at: Point, size: tuple[float, float, float], out: float, colour: Colour) -> None:
+    """Two pointed ears."""
+    x, y, z = at
+    for s in (-1, 1):
+        m.rod(
+            (x, s * y, z),
+            (x + size[0], s * (y + out), z + size[2]),
+            size[1],
+            colour,
+            end=size[1] * 0.15,
+            n=4,
+        )
+
+
+def eyes(m: Model, at: Point, r: float) -> None:
+    """Two dark eyes."""
+    for s in (-1, 1):
+        m.ball((at[0], s * at[1], at[2]), (r, r, r), (20, 20, 20), n=4, rings=2)
+
+
+def dog(m: Model, d: Draw) -> None:
+    """A dog: muzzle with a dark nose, drooping or pricked ears, raised tail, collar."""
+    coat = d.tint(
+        d.turn(
+            [
+                (150, 100, 56),
+                (60, 52, 46),
+                (216, 190, 150),
+                (190, 120, 60),
+                (236, 232, 224),
+                (110, 104, 100),
+            ]
+        )
+    )
+    spot = d.turn([(240, 236, 226), coat, (70, 50, 36), (30, 28, 28)])
+    z, fat = d.between(0.42, 0.5), d.between(0.1, 0.14)
+    m.tube(
+        [(-0.34, 0, z), (-0.1, 0, z - 0.01), (0.2, 0, z - 0.02), (0.34, 0, z + 0.05)],
+        [fat * 0.75, fat * 0.9, fat * 1.15, fat * 0.8],
+        coat,
+        n=8,
+    )
+    legs(m, (-0.28, 0.22), 0.075, z, 0.032, coat, spot, step=d.between(-0.07, 0.07), bend=0.05)
+    m.tube([(0.26, 0, z + 0.02), (0.42, 0, z + 0.2)], [fat * 0.8, fat * 0.62], coat)
+    head = z + 0.25
+    m.ball((0.45, 0, head), (0.11, 0.09, 0.095), coat, n=8, rings=5)
+    m.tube(
+        [(0.48, 0, head - 0.03), (0.64, 0, head - 0.05)],
+        [0.06, 0.042],
+        spot if d.style(2) else coat,
+    )
+    m.ball((0.65, 0, head - 0.035), (0.026, 0.03, 0.024), (20, 20, 20), n=5, rings=3)
+    eyes(m, (0.52, 0.055, head + 0.035), 0.018)
+    if d.style(2):
+        ears(m, (0.41, 0.05, head + 0.06), (-0.01, 0.035, 0.11), 0.02, coat)
+    else:
+        for s in (-1, 1):
+            m.beam(
+                (0.42, s * 0.08, head + 0.06),
+                (0.43, s * 0.11, head - 0.1),
+                (0.03, 0.08),
+                DARK if sum(coat) > 400 else coat,
+            )
+    m.tube(
+        [(-0.36, 0, z + 0.04), (-0.48, 0, z + 0.12), (-0.5 + d.between(-0.05, 0.08), 0, z + 0.28)],
+        [0.035, 0.03, 0.012],
+        coat,
+        n=5,
+    )
+    m.rod(
+        (0.345, 0, z + 0.085),
+        (0.37, 0, z + 0.13),
+        fat * 0.82,
+        d.turn([(210, 40, 40), (40, 90, 190), (240, 190, 40)]),
+    )
+    if spot != coat:
+        m.ball((-0.05, 0, z + 0.015), (0.13, fat * 0.97, fat * 0.98), spot, n=8, rings=4)
+
+
+def cat(m: Model, d: Draw) -> None:
+    """A cat: round head, pointed ears, whiskers, long tail held high; walking or sitting."""
+    coat = d.tint(
+        d.turn([(220, 140, 70), (60, 58, 60), (160, 156, 152), (236, 230, 220), (150, 116, 80)])
+    )
+    mark: Colour = (int(coat[0] * 0.68), int(coat[1] * 0.66), int(coat[2] * 0.64))
+    belly = (244, 240, 232)
+    if d.style(3) == 2:  # sits
+        m.tube(
+            [(-0.08, 0, 0.02), (-0.06, 0, 0.12), (0.02, 0, 0.26), (0.05, 0, 0.34)],
+            [0.1, 0.12, 0.08, 0.055],
+            coat,
+            n=8,
+        )
+        for s in (-1, 1):
+            m.rod((0.05, s * 0.035, 0.22), (0.09, s * 0.04, 0), 0.026, coat, end=0.022, n=5)
+            m.ball((0.1, s * 0.04, 0.02), (0.035, 0.025, 0.02), belly, n=5, rings=3)
+            m.ball((0.0, s * 0.08, 0.05), (0.09, 0.04, 0.06), coat, n=6, rings=3)
+        m.tube(
+            [(-0.16, 0, 0.03), (-0.25, 0.08, 0.04), (-0.16, 0.18, 0.04)],
+            [0.03, 0.028, 0.02],
+            mark,
+            n=5,
+        )
+        x, z = 0.08, 0.41
+    else:
+        z0 = 0.23
+        m.tube(
+            [(-0.22, 0, z0), (-0.08, 0, z0 + 0.01), (0.08, 0, z0), (0.18, 0, z0 + 0.02)],
+            [0.055, 0.075, 0.07, 0.05],
+            coat,
+            n=8,
+        )
+        legs(m, (-0.17, 0.13), 0.04, z0, 0.02, coat, belly, step=d.between(-0.05, 0.05), bend=0.03)
+        m.tube(
+            [
+                (-0.23, 0, z0 + 0.02),
+                (-0.33, 0, z0 + 0.08),
+                (-0.36, 0, z0 + 0.22),
+                (-0.3, 0, z0 + 0.3),
+            ],
+            [0.024, 0.022, 0.02, 0.014],
+            mark,
+            n=5,
+        )
+        for i in range(3):
+            t = -0.13 + i * 0.1
+            m.rod((t, 0, z0 + 0.008), (t + 0.035, 0, z0 + 0.008), 0.077, mark, n=8)
+        x, z = 0.26, z0 + 0.11
+    m.ball((x, 0, z), (0.08, 0.082, 0.072), coat, n=8, rings=5)
+    m.ball((x + 0.06, 0, z - 0.022), (0.035, 0.045, 0.026), belly, n=6, rings=3)
+    m.ball((x + 0.095, 0, z - 0.008), (0.01, 0.013, 0.009), (220, 120, 120), n=4, rings=2)
+    for s in (-1, 1):
+        m.rod(
+            (x - 0.005, s * 0.045, z + 0.045), (x, s * 0.06, z + 0.12), 0.034, mark, end=0.003, n=4
+        )
+        m.ball(
+            (x + 0.064, s * 0.033, z + 0.018), (0.014, 0.016, 0.018), (120, 190, 70), n=5, rings=3
+        )
+        for up in (-0.012, 0.008):
+            m.beam(
+                (x + 0.07, s * 0.035, z - 0.02),
+                (x + 0.075, s * 0.12, z - 0.02 + up),
+                (0.004, 0.004),
+                (250, 250, 250),
+            )
+
+
+def horse(m: Model, d: Draw) -> None:
+    """A horse: long legs and neck, mane, long head, flowing tail; some saddled."""
+    coat = d.tint(
+        d.turn([(132, 78, 42), (60, 44, 36), (206, 196, 184), (170, 112, 60), (96, 60, 40)])
+    )
+    mane = d.turn([(30, 24, 22), (90, 84, 80), (230, 216, 180)])
+    z, fat = d.between(1.1, 1.18), d.between(0.24, 0.29)
+    m.tube(
+        [
+            (-0.8, 0, z + 0.02),
+            (-0.5, 0, z + 0.05),
+            (0, 0, z - 0.02),
+            (0.5, 0, z),
+            (0.75, 0, z + 0.08),
+        ],
+        [fat * 0.6, fat * 1.05, fat, fat * 1.05, fat * 0.7],
+        coat,
+        n=8,
+        squash=1.12,
+    )
+    legs(
+        m,
+        (-0.62, 0.52),
+        0.15,
+        z - 0.05,
+        0.065,
+        coat,
+        d.pick((DARK, (236, 232, 224))),
+        step=d.between(-0.22, 0.22),
+        bend=0.1,
+    )
+    lift = d.between(-0.12, 0.14)
+    top = (1.08, 0, z + 0.68 + lift)
+    m.tube(
+        [(0.55, 0, z + 0.02), (0.85, 0, z + 0.36), top], [fat * 0.9, fat * 0.62, 0.115], coat, n=8
+    )
+    m.tube(
+        [
+            (top[0] - 0.06, 0, top[2] + 0.05),
+            (top[0] + 0.2, 0, top[2] - 0.06),
+            (top[0] + 0.5, 0, top[2] - 0.3),
+        ],
+        [0.11, 0.12, 0.075],
+        coat,
+        n=7,
+    )
+    m.ball(
+        (top[0] + 0.5, 0, top[2] - 0.31),
+        (0.07, 0.065, 0.07),
+        mane if d.style(2) else coat,
+        n=6,
+        rings=3,
+    )
+    eyes(m, (top[0] + 0.12, 0.105, top[2] + 0.0), 0.028)
+    ears(m, (top[0] - 0.04, 0.05, top[2] + 0.1), (0.03, 0.035, 0.15), 0.02, coat)
+    m.tube(
+        [
+            (0.5, 0, z + 0.26),
+            (0.76, 0, z + 0.5),
+            (top[0] - 0.12, 0, top[2] + 0.1),
+            (top[0] + 0.08, 0, top[2] + 0.06),
+        ],
+        [0.05, 0.085, 0.08, 0.03],
+        mane,
+        n=5,
+    )
+    m.tube([(-0.86, 0, z + 0.12), (-1.05, 0, z), (-1.1, 0, z - 0.55)], [0.06, 0.1, 0.04], mane, n=6)
+    if d.style(3) == 1:
+        m.rod(
+            (-0.18, 0, z + 0.0),
+            (0.2, 0, z + 0.0),
+            fat * 1.13,
+            d.pick(((150, 40, 40), (40, 60, 110))),
+            n=8,
+        )
+        m.box((0, 0, z + fat * 1.1), (0.42, 0.24, 0.1), (80, 46, 26), top=(0.7, 0.8))
+    elif d.style(3) == 2:
+        m.panel("+x", (top[0] + 0.3, 0, top[2] - 0.02), (0.06, 0.1), (245, 245, 240))
+
+
+def _bovine(
+    m: Model,
+    coat: Colour,
+    hoof: Colour,
+    muzzle: Colour,
+    *,
+    z: float,
+    fat: float,
+    hump: float,
+    low: float,
+) -> tuple[float, float]:
+    """Body, legs, neck, head and tail; gives (x, z) of the head's middle."""
+    m.tube([(-0.85, 0, z + 0.06), (-0.6, 0, z + 0.04), (0, 0, z - 0.03), (0.45, 0, z + hump * 0.4), (0.75, 0, z + hump * 0.3)],
+           [fat * 0.7, fat * 0.98, fat * 1.04, fat * (1 + hump), fat * 0.75], coat, n=9, squash=1.1)  # fmt: skip
+    legs(m, (-0.62, 0.5), 0.19, z - 0.05, 0.075, coat, hoof, bend=0.06)
+    hx, hz = 1.08, z + 0.28 - low
+    m.tube(
+        [(0.6, 0, z + 0.1 + hump * 0.5), (hx - 0.05, 0, hz + 0.05)],
+        [fat * (0.72 + hump), 0.16],
+        coat,
+        n=8,
+    )
+    m.tube(
+        [(hx - 0.1, 0, hz + 0.06), (hx + 0.1, 0, hz), (hx + 0.34, 0, hz - 0.16)],
+        [0.15, 0.155, 0.1],
+        coat,
+        n=7,
+    )
+    m.ball((hx + 0.35, 0, hz - 0.17), (0.09, 0.115, 0.095), muzzle, n=7, rings=4)
+    eyes(m, (hx + 0.1, 0.135, hz + 0.05), 0.03)
+    m.tube(
+        [(-0.96, 0, z + 0.22), (-1.06, 0, z), (-1.06, 0, z - 0.5)], [0.035, 0.025, 0.02], coat, n=4
+    )
+    m.ball((-1.06, 0, z - 0.55), (0.05, 0.05, 0.12), DARK, n=5, rings=3)
+    for s in (-1, 1):
+        m.beam(
+            (hx - 0.05, s * 0.13, hz + 0.1),
+            (hx - 0.1, s * 0.34, hz + 0.08),
+            (0.04, 0.1),
+            coat,
+            end=(0.02, 0.03),
+        )
+    return hx, hz
+
+
+def cattle(m: Model, d: Draw) -> None:
+    """A cow: patches, a pale muzzle, an udder, small horns or none."""
+    coat = d.tint(
+        d.turn([(238, 236, 230), (176, 110, 66), (236, 232, 224), (110, 70, 50), (214, 180, 130)])
+    )
+    patch = d.turn([(36, 34, 34), (244, 240, 232), (140, 76, 44), (240, 236, 228), (120, 80, 50)])
+    z, fat = d.between(0.86, 0.92), d.between(0.34, 0.38)
+    hx, hz = _bovine(
+        m, coat, DARK, (236, 180, 170), z=z, fat=fat, hump=0.0, low=d.between(0.0, 0.15)
+    )
+    for x, up in ((-0.45, 0.1), (0.05, 0.02), (0.42, 0.08)):
+        m.ball(
+            (x + d.between(-0.05, 0.05), 0, z + up),
+            (d.between(0.14, 0.2), fat * 1.06, fat * 1.08),
+            patch,
+            n=9,
+            rings=4,
+        )
+    m.ball((-0.35, 0, z - fat * 1.02), (0.18, 0.15, 0.14), (240, 170, 170), n=6, rings=3)
+    for s in (-1, 1):
+        m.rod(
+            (-0.3, s * 0.07, z - fat - 0.1),
+            (-0.3, s * 0.07, z - fat - 0.2),
+            0.022,
+            (230, 150, 150),
+            n=4,
+        )
+        if d.style(2):
+            m.rod(
+                (hx - 0.08, s * 0.1, hz + 0.18),
+                (hx - 0.06, s * 0.18, hz + 0.3),
+                0.03,
+                (220, 210, 190),
+                end=0.008,
+                n=4,
+            )
+    if d.style(3):
+        m.box((hx - 0.1, 0.34, hz), (0.02, 0.03, 0.1), (250, 200, 40))
+    m.panel("+x", (hx + 0.12, 0, hz + 0.15), (0.1, 0.14), patch)
+
+
+def bull(m: Model, d: Draw) -> None:
+    """A bull: massive shoulders, lowered head, long curved horns, a ring in the nose."""
+    coat = d.tint(d.turn([(44, 34, 30), (100, 56, 36), (70, 48, 40), (28, 26, 28), (130, 80, 50)]))
+    z, fat = d.between(0.94, 1.02), d.between(0.38, 0.42)
+    hump = d.between(0.2, 0.34)
+    hx, hz = _bovine(
+        m, coat, (24, 22, 22), (70, 58, 54), z=z, fat=fat, hump=hump, low=d.between(0.12, 0.34)
+    )
+    reach = d.between(0.32, 0.5)
+    horn = d.turn([(232, 222, 196), (240, 236, 224), (200, 186, 150)])
+    for s in (-1, 1):
+        m.tube(
+            [
+                (hx - 0.02, s * 0.1, hz + 0.15),
+                (hx + 0.02, s * (0.1 + reach * 0.75), hz + 0.18),
+                (hx + 0.16, s * (0.1 + reach), hz + 0.46),
+            ],
+            [0.065, 0.055, 0.012],
+            horn,
+            n=6,
+        )
+    n = 6
+    ring = [
+        (hx + 0.42, 0.07 * np.sin(t), hz - 0.27 + 0.07 * np.cos(t))
+        for t in np.arange(n + 1) * 2 * np.pi / n
+    ]
+    for a, b in zip(ring[:-1], ring[1:], strict=True):
+        m.beam(a, b, (0.025, 0.025), (240, 200, 70))
+    if d.style(2):
+        m.ball((hx - 0.02, 0, hz + 0.17), (0.13, 0.14, 0.09), (130, 84, 50), n=6, rings=3)
+    m.ball((0.4, 0, z + fat * 0.9 + hump * 0.3), (0.4, 0.25, 0.22), coat, n=7, rings=4)
+
+
+def sheep(m: Model, d: Draw) -> None:
+    """A sheep: a woolly ball on thin legs with a bare, often dark face; a ram has curled horns."""
+    wool = d.tint(d.turn([(240, 236, 224), (226, 216, 196), (250, 248, 244), (120, 100, 84)]))
+    face = d.turn([(44, 40, 40), (230, 206, 176), (60, 46, 38), (236, 226, 214), (34, 32, 32)])
+    z, fat = d.between(0.56, 0.62), d.between(0.25, 0.29)
+    m.ball((-0.05, 0, z), (0.46, fat, fat), wool, n=8, rings=5)
+    for i in range(7):
+        x = -0.4 + i * 0.12
+        a = i * 2.4
+        m.ball(
+            (x, np.sin(a) * fat * 0.6, z + 0.08 + abs(np.cos(a)) * fat * 0.5),
+            (0.16, 0.16, 0.15),
+            wool,
+            n=6,
+            rings=3,
+        )
+    legs(m, (-0.32, 0.22), 0.12, z - 0.1, 0.032, face, (30, 28, 28))
+    hx, hz = 0.55, z + d.between(0.14, 0.24)
+    m.ball((0.38, 0, z + 0.12), (0.16, 0.14, 0.18), wool, n=7, rings=4)
+    m.tube(
+        [(hx - 0.1, 0, hz + 0.04), (hx + 0.02, 0, hz), (hx + 0.18, 0, hz - 0.12)],
+        [0.08, 0.09, 0.055],
+        face,
+        n=7,
+    )
+    m.ball((hx - 0.05, 0, hz + 0.09), (0.1, 0.1, 0.07), wool, n=6, rings=3)
+    eyes(m, (hx + 0.06, 0.075, hz + 0.02), 0.018)
+    for s in (-1, 1):
+        m.beam(
+            (hx - 0.03, s * 0.07, hz + 0.05),
+            (hx - 0.06, s * 0.22, hz + 0.0),
+            (0.03, 0.07),
+            face,
+            end=(0.02, 0.03),
+        )
+        if d.style(3) == 2:
+            m.tube(
+                [
+                    (hx - 0.02, s * 0.07, hz + 0.09),
+                    (hx - 0.14, s * 0.15, hz + 0.07),
+                    (hx - 0.1, s * 0.2, hz - 0.07),
+                    (hx + 0.04, s * 0.2, hz - 0.04),
+                ],
+                [0.045, 0.042, 0.034, 0.012],
+                (190, 170, 130),
+                n=5,
+            )
+    m.ball((-0.52, 0, z + 0.05), (0.06, 0.06, 0.1), wool, n=5, rings=3)
+
+
+def bird(m: Model, d: Draw) -> None:
+    """A standing bird: round body, head with a beak, folded or raised wings, tail, two thin legs."""
+    coat = d.tint(
+        d.turn(
+            [
+                (120, 128, 140),
+                (240, 240, 240),
+                (40, 42, 48),
+                (200, 60, 50),
+                (60, 110, 180),
+                (150, 110, 70),
+            ]
+        )
+    )
+    wing: Colour = (int(coat[0] * 0.65), int(coat[1] * 0.65), int(coat[2] * 0.68))
+    breast = d.turn([(200, 206, 210), (248, 248, 246), (220, 130, 70), (240, 220, 120)])
+    beak = d.turn([(240, 160, 30), (60, 56, 50), (220, 60, 40)])
+    z = d.between(0.2, 0.26)
+    m.tube(
+        [(-0.2, 0, z - 0.02), (-0.08, 0, z), (0.06, 0, z + 0.03), (0.13, 0, z + 0.1)],
+        [0.03, 0.09, 0.1, 0.06],
+        coat,
+        n=8,
+    )
+    m.ball((0.07, 0, z + 0.01), (0.085, 0.08, 0.085), breast, n=8, rings=4)
+    hz = z + d.between(0.17, 0.22)
+    m.rod((0.1, 0, z + 0.06), (0.15, 0, hz), 0.06, coat, end=0.045)
+    m.ball((0.16, 0, hz), (0.07, 0.06, 0.062), coat, n=8, rings=5)
+    m.rod(
+        (0.21, 0, hz - 0.005),
+        (0.21 + d.between(0.07, 0.13), 0, hz - 0.02),
+        0.025,
+        beak,
+        end=0.004,
+        n=4,
+    )
+    eyes(m, (0.19, 0.05, hz + 0.018), 0.014)
+    m.plate(
+        [(-0.16, 0.03), (-0.16, -0.03), (-0.38, -0.07), (-0.38, 0.07)], (z - 0.05, z - 0.03), wing
+    )
+    raised = d.style(3) == 1
+    for s in (-1, 1):
+        if raised:
+            m.loft([[(0.08, s * 0.06, z + 0.05), (-0.1, s * 0.06, z + 0.05), (-0.1, s * 0.07, z + 0.08), (0.08, s * 0.07, z + 0.08)],
+                    [(0.04, s * 0.22, z + 0.2), (-0.14, s * 0.22, z + 0.2), (-0.14, s * 0.23, z + 0.22), (0.04, s * 0.23, z + 0.22)],
+                    [(-0.08, s * 0.36, z + 0.25), (-0.14, s * 0.36, z + 0.25), (-0.14, s * 0.37, z + 0.26), (-0.08, s * 0.37, z + 0.26)]], wing)  # fmt: skip
+        else:
+            m.tube(
+                [
+                    (0.1, s * 0.08, z + 0.05),
+                    (-0.06, s * 0.09, z + 0.02),
+                    (-0.26, s * 0.04, z - 0.05),
+                ],
+                [0.04, 0.05, 0.01],
+                wing,
+                n=6,
+            )
+        m.rod((0.0, s * 0.04, z - 0.06), (0.02, s * 0.045, 0.01), 0.011, beak, n=4)
+        for toe in (-0.04, 0, 0.04):
+            m.beam((0.02, s * 0.045, 0.008), (0.085, s * 0.045 + toe, 0.008), (0.016, 0.012), beak)
+    if d.style(4) == 3:
+        for i in range(3):
+            m.beam(
+                (0.14, 0, hz + 0.05),
+                (0.08 - 0.03 * i, 0, hz + 0.15 - 0.02 * i),
+                (0.012, 0.03),
+                d.pick(((250, 210, 60), wing)),
+            )
+
+
+def kangaroo(m: Model, d: Draw) -> None:
+    """A kangaroo upright on long hind feet: heavy tail, small arms, long ears; some with a joey."""
+    coat = d.tint(d.turn([(168, 122, 84), (130, 112, 98), (186, 110, 70), (150, 132, 112)]))
+    belly = (226, 208, 184)
+    lean = d.between(0.16, 0.34)
+    hip = (0.0, 0.0, 0.52)
+    chest = (lean, 0.0, 1.02)
+    m.tube(
+        [(-0.12, 0, 0.42), hip, (lean * 0.55, 0, 0.82), chest, (lean + 0.1, 0, 1.18)],
+        [0.14, 0.22, 0.17, 0.12, 0.08],
+        coat,
+        n=8,
+    )
+    m.tube(
+        [(0.1, 0, 0.46), (lean * 0.55 + 0.09, 0, 0.8), (lean + 0.07, 0, 1.0)],
+        [0.15, 0.11, 0.07],
+        belly,
+        n=7,
+    )
+    m.tube(
+        [(-0.1, 0, 0.46), (-0.38, 0, 0.2), (-0.68, 0, 0.06), (-1.0, 0, 0.05)],
+        [0.15, 0.1, 0.065, 0.025],
+        coat,
+        n=7,
+    )
+    for s in (-1, 1):
+        y = s * 0.17
+        m.tube([(0.0, y, 0.52), (0.24, y, 0.36), (-0.08, y, 0.1)], [0.15, 0.11, 0.045], coat, n=7)
+        m.tube(
+            [(-0.12, y, 0.05), (0.1, y, 0.045), (0.4, y, 0.03)],
+            [0.05, 0.045, 0.025],
+            (70, 54, 44),
+            n=5,
+        )
+        m.tube(
+            [
+                (lean + 0.05, s * 0.11, 1.04),
+                (lean + 0.14, s * 0.14, 0.86),
+                (lean + 0.3, s * 0.1, 0.82),
+            ],
+            [0.045, 0.034, 0.024],
+            coat,
+            n=5,
+        )
+        m.ball((lean + 0.31, s * 0.1, 0.81), (0.035, 0.03, 0.03), (60, 46, 38), n=5, rings=3)
+    hx, hz = lean + 0.17, 1.27
+    m.ball((hx, 0, hz), (0.11, 0.085, 0.095), coat, n=8, rings=5)
+    m.tube([(hx + 0.04, 0, hz - 0.01), (hx + 0.2, 0, hz - 0.06)], [0.07, 0.042], coat, n=6)
+    m.ball((hx + 0.21, 0, hz - 0.05), (0.025, 0.03, 0.025), (30, 26, 26), n=5, rings=3)
+    eyes(m, (hx + 0.07, 0.06, hz + 0.03), 0.02)
+    for s in (-1, 1):
+        m.tube(
+            [
+                (hx - 0.04, s * 0.05, hz + 0.07),
+                (hx - 0.06, s * 0.09, hz + 0.18),
+                (hx - 0.06, s * 0.1, hz + 0.27),
+            ],
+            [0.03, 0.045, 0.008],
+            coat,
+            n=5,
+        )
+    if d.style(3) == 2:  # a joey looks out
+        m.ball((0.26, 0, 0.72), (0.07, 0.06, 0.07), coat, n=6, rings=4)
+        m.rod((0.3, 0, 0.72), (0.38, 0, 0.7), 0.035, coat, end=0.02, n=5)
+        ears(m, (0.24, 0.03, 0.77), (0.0, 0.02, 0.1), 0.02, coat)
