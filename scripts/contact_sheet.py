@@ -28,17 +28,25 @@ def picture(made: Shape, size: int, *, turn: float = 35.0, tilt: float = 16.0) -
     client = bullet.connect(bullet.DIRECT)
     try:
         Bodies(client).add(made)
-        low, high = made.bounds.astype(float)
-        middle, fov = (low + high) / 2, 24.0
+        points = np.concatenate([part.vertices for part in made.parts]).astype(float)
+        middle = made.bounds.astype(float).mean(0)
         a, b = np.radians(turn), np.radians(tilt)
         way = np.array([np.cos(a) * np.cos(b), -np.sin(a) * np.cos(b), np.sin(b)])
-        away = np.linalg.norm(high - low) / 2 / np.tan(np.radians(fov / 2))
-        eye = middle + way * away * 1.02
-        view = bullet.computeViewMatrix(eye.tolist(), middle.tolist(), (0, 0, 1))
+        away = 4 * float(np.linalg.norm(points - middle, axis=1).max())
+        right = np.array([np.sin(a), np.cos(a), 0.0])
+        up = np.cross(way, right)
+        for _ in range(2):  # aim at the middle of what is seen
+            rest = points - middle
+            depth = away - rest @ way
+            seen_at = np.stack([rest @ right, rest @ up], 1) / depth[:, None]
+            aim = (seen_at.min(0) + seen_at.max(0)) / 2 * away
+            middle = middle + right * aim[0] + up * aim[1]
+        fov = 2 * np.degrees(np.arctan(np.ptp(seen_at, axis=0).max() / 2 * 1.08))
+        view = bullet.computeViewMatrix((middle + way * away).tolist(), middle.tolist(), (0, 0, 1))
         lens = bullet.computeProjectionMatrixFOV(fov, 1, away * 0.2, away * 3)
         _, _, colours, _, mask = bullet.getCameraImage(
             size, size, view, lens, shadow=0, lightDirection=(2.0, -0.9, 2.6),
-            lightAmbientCoeff=0.55, lightDiffuseCoeff=0.5, lightSpecularCoeff=0.0,
+            lightAmbientCoeff=0.6, lightDiffuseCoeff=0.55, lightSpecularCoeff=0.0,
             renderer=bullet.ER_TINY_RENDERER, physicsClientId=client,
         )  # fmt: skip
     finally:

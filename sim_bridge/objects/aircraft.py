@@ -167,7 +167,7 @@ def c17(m: Model, d: Draw) -> None:
     """A grey four-engined transport: high wings, T-tail, thick hull, winglets."""
     grey = d.tint(d.turn([(146, 154, 162), (120, 128, 134), (168, 172, 172), (128, 136, 124)]))
     dark: Colour = (int(grey[0] * 0.75), int(grey[1] * 0.75), int(grey[2] * 0.75))
-    a, r, z = 24.0, d.between(3.2, 3.7), 4.6
+    a, r, z = d.between(21, 25), d.between(3.1, 3.8), 4.6
     body(
         m,
         [

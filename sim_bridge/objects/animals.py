@@ -319,14 +319,11 @@ def cattle(m: Model, d: Draw) -> None:
     hx, hz = _bovine(
         m, coat, DARK, (236, 180, 170), z=z, fat=fat, hump=0.0, low=d.between(0.0, 0.15)
     )
-    for x, up in ((-0.45, 0.1), (0.05, 0.02), (0.42, 0.08)):
-        m.ball(
-            (x + d.between(-0.05, 0.05), 0, z + up),
-            (d.between(0.14, 0.2), fat * 1.06, fat * 1.08),
-            patch,
-            n=9,
-            rings=4,
-        )
+    for s in (-1, 1):
+        for x, up in ((-0.52, 0.12), (-0.02, 0.02), (0.42, 0.1)):
+            size = d.between(0.16, 0.26)
+            place = (x + d.between(-0.06, 0.06), s * fat * 0.55, z + up + d.between(-0.06, 0.06))
+            m.ball(place, (size, fat * 0.52, size * d.between(0.8, 1.2)), patch, n=7, rings=4)
     m.ball((-0.35, 0, z - fat * 1.02), (0.18, 0.15, 0.14), (240, 170, 170), n=6, rings=3)
     for s in (-1, 1):
         m.rod(
@@ -352,7 +349,7 @@ def cattle(m: Model, d: Draw) -> None:
 
 def bull(m: Model, d: Draw) -> None:
     """A bull: massive shoulders, lowered head, long curved horns, a ring in the nose."""
-    coat = d.tint(d.turn([(44, 34, 30), (100, 56, 36), (70, 48, 40), (28, 26, 28), (130, 80, 50)]))
+    coat = d.tint(d.turn([(104, 60, 38), (64, 52, 46), (130, 80, 50), (84, 62, 54), (52, 48, 50)]))
     z, fat = d.between(0.94, 1.02), d.between(0.38, 0.42)
     hump = d.between(0.2, 0.34)
     hx, hz = _bovine(

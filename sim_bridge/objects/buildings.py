@@ -197,10 +197,10 @@ def skyscraper(m: Model, d: Draw) -> None:
             t = 1 - (1 - taper[0]) * (z - base) / h
             m.box((0, 0, z), (a * t + 0.5, b * t + 0.5, h / bands * 0.3), frame)
         if style != 3:
-            for u in (-0.5, -0.25, 0, 0.25, 0.5):
-                m.box((0, u * b * 0.97, base), (a + 0.8, 0.9, h), frame)
-                if abs(u) > 0.3:
-                    m.box((u * a * 0.97, 0, base), (0.9, b + 0.8, h), frame)
+            for u in (-0.49, -0.17, 0.17, 0.49):
+                for s in (-0.5, 0.5):
+                    m.box((s * a, u * b, base), (0.9, 1.1, h), frame)
+                    m.box((u * a, s * b, base), (1.1, 0.9, h), frame)
         base += h
     if style in (0, 3):
         m.rod((0, 0, base), (0, 0, base + 16), 0.9, (150, 154, 160), end=0.2)

@@ -131,12 +131,12 @@ def shape(cls: str, variant: str = "0") -> Shape:
 def fitted(raw: Shape, size: tuple[float, float, float], draw: Draw) -> Shape:
     """The shape on the ground, in the middle, about as large as ``size`` says.
 
-    It keeps its proportions but for a twentieth.
+    The longer axes count more. It keeps its proportions but for a twentieth.
     """
     low, high = raw.bounds.astype(float)
     extent = np.maximum(high - low, 1e-6)
     wanted = np.asarray(size)
-    scale = np.exp(np.log(wanted / extent).mean()) * draw.between(0.88, 1.15)
+    scale = np.exp((np.log(wanted / extent) * wanted).sum() / wanted.sum()) * draw.between(0.88, 1.15)
     scale = min(scale, float((LIMIT * wanted / extent).min()) / 1.05)
     factor = scale * draw.rng.uniform(0.95, 1.05, 3)
     shift = np.array([*((low + high)[:2] / 2), low[2]])

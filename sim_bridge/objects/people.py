@@ -63,7 +63,7 @@ def _head(m: Model, z: float, r: float, skin: Colour) -> None:
     m.rod((0, 0, z - r * 1.7), (0, 0, z - r * 0.5), r * 0.5, skin)
     m.ball((0, 0, z), (r, r * 0.86, r * 1.12), skin, n=8, rings=6)
     for s in (-1, 1):
-        m.box((r * 0.88, s * r * 0.34, z + r * 0.1), (r * 0.14, r * 0.2, r * 0.18), (30, 30, 34))
+        m.box((r * 0.86, s * r * 0.34, z + r * 0.08), (r * 0.12, r * 0.16, r * 0.16), (30, 30, 34))
     m.box((r * 1.0, 0, z - r * 0.22), (r * 0.25, r * 0.2, r * 0.25), skin)
 
 

@@ -48,10 +48,10 @@ SIZES: dict[str, tuple[float, float, float]] = {
     "Rifle": (1.05, 0.25, 0.42),  # on its bipod
     # Street furniture and signs.
     "Bench": (0.65, 1.8, 0.9),
-    "Billboard": (0.7, 6.5, 6.0),
+    "Billboard": (1.4, 6.5, 6.0),
     "BusStop": (1.7, 4.2, 2.8),  # a shelter with its pole
     "FireHydrant": (0.5, 0.55, 0.9),
-    "StopSign": (0.12, 0.8, 2.6),
+    "StopSign": (0.3, 0.8, 2.6),
     "Table": (0.9, 1.6, 0.76),
     "TrafficLight": (0.55, 0.6, 3.6),
     # Sport and play.

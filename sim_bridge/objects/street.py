@@ -151,7 +151,7 @@ def stop_sign(m: Model, d: Draw) -> None:
     for x, size, colour in ((0.04, r, WHITE), (0.055, r * 0.91, red)):
         ring = circle(8, start=np.pi / 8) * size
         m.front([(a, high + b) for a, b in ring], (x, x + 0.02), colour)
-    letters(m, "STOP", (0.085, 0, high), r * 0.62, WHITE)
+    letters(m, "STOP", (0.06, 0, high), r * 0.46, WHITE)
     if d.style(3) == 1:  # a plate below
         m.box((0.05, 0, high - r - 0.28), (0.02, r * 1.4, 0.22), WHITE)
         for s in (-1, 1):
