@@ -89,7 +89,7 @@ def main() -> None:
     else:
         shown = [(c, shape(c, options.variant)) for c in classes()]
     page = sheet(shown, options.columns, options.cell)
-    page.quantize(255, dither=Image.Dither.NONE).save(options.out, optimize=True)
+    page.save(options.out, optimize=True)
     print(f"wrote {options.out}: {len(shown)} objects, {options.out.stat().st_size // 1024} kB")
 
 
