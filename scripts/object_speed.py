@@ -24,7 +24,7 @@ import numpy as np
 from PIL import Image
 
 from symboslam.sim_bridge.objects import Bodies, Shape, classes, shape, variants
-from symboslam.sim_bridge.objects.bullet import import_pybullet, palette, triangles
+from symboslam.sim_bridge.objects.bullet import import_pybullet, mesh, palette
 
 bullet: Any = import_pybullet()
 Maker = Callable[[Shape, tuple[float, float, float]], None]
@@ -44,11 +44,12 @@ def links_maker(client: int, folder: Path) -> Maker:
         if made.name not in shared:
             shared[made.name] = []
             for part in made.parts:
-                corners, normals, _ = triangles(Shape(made.name, (part,)))
+                rows, faces = mesh(Shape(made.name, (part,)))
                 shared[made.name].append(
                     bullet.createVisualShape(
-                        bullet.GEOM_MESH, vertices=corners.tolist(), normals=normals.tolist(),
-                        indices=list(range(len(corners))), rgbaColor=part.rgba,
+                        bullet.GEOM_MESH, vertices=rows[:, :3].tolist(),
+                        normals=rows[:, 3:6].tolist(), indices=faces.ravel().tolist(),
+                        rgbaColor=part.rgba,
                         physicsClientId=client,
                     )
                 )  # fmt: skip
@@ -75,13 +76,13 @@ def files_maker(client: int, folder: Path) -> Maker:
     def make(made: Shape, at: tuple[float, float, float]) -> None:
         if made.name not in shared:
             path = folder / f"{made.name.replace('/', '-')}.obj"
-            corners, normals, spots = triangles(made)
+            rows, faces = mesh(made)
             lines = ["mtllib palette.mtl"]
-            for word, rows in (("v", corners), ("vn", normals), ("vt", spots)):
-                lines += [" ".join([word, *(f"{x:.6g}" for x in row)]) for row in rows]
+            for word, data in (("v", rows[:, :3]), ("vn", rows[:, 3:6]), ("vt", rows[:, 6:])):
+                lines += [" ".join([word, *(f"{x:.6g}" for x in row)]) for row in data]
             lines.append("usemtl all")
-            for i in range(1, len(corners) + 1, 3):
-                lines.append("f " + " ".join(f"{j}/{j}/{j}" for j in (i, i + 1, i + 2)))
+            for face in faces + 1:
+                lines.append("f " + " ".join(f"{j}/{j}/{j}" for j in face))
             path.write_text("\n".join(lines) + "\n")
             shared[made.name] = bullet.createVisualShape(
                 bullet.GEOM_MESH, fileName=str(path), physicsClientId=client
@@ -93,9 +94,7 @@ def files_maker(client: int, folder: Path) -> Maker:
 
 def box_maker(client: int, folder: Path) -> Maker:
     """Plain boxes."""
-    seen = bullet.createVisualShape(
-        bullet.GEOM_BOX, halfExtents=(2, 2, 2), physicsClientId=client
-    )
+    seen = bullet.createVisualShape(bullet.GEOM_BOX, halfExtents=(2, 2, 2), physicsClientId=client)
     return lambda made, at: void(bullet.createMultiBody(0, -1, seen, at, physicsClientId=client))
 
 

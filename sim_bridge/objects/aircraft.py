@@ -1,4 +1,4 @@
-"""What flies: airliner, light plane, transport, fighter, helicopters. They stand on their wheels."""
+"""What flies: airliner, light plane, transport, fighter, helicopters; on their wheels."""
 
 from __future__ import annotations
 
@@ -82,8 +82,16 @@ def airplane(m: Model, d: Draw) -> None:
         if d.style(2):
             m.panel(side, (a * 0.2, y * 0.98, z - 0.5), (a * 1.02, 0.35), tail)
     for s in (-1, 1):
-        m.add([(a * 0.9, s * 0.1, z + 0.95), (a * 0.8, s * 0.1, z + 1.75), (a * 0.79, s * 1.35, z + 1.15), (a * 0.88, s * 1.05, z + 0.75)],
-              [(0, 1, 2), (0, 2, 3), (0, 2, 1), (0, 3, 2)], GLASS)  # fmt: skip
+        m.add(
+            [
+                (a * 0.9, s * 0.1, z + 0.95),
+                (a * 0.8, s * 0.1, z + 1.75),
+                (a * 0.79, s * 1.35, z + 1.15),
+                (a * 0.88, s * 1.05, z + 0.75),
+            ],
+            [(0, 1, 2), (0, 2, 3), (0, 2, 1), (0, 3, 2)],
+            GLASS,
+        )
     wings(m, (-3.5, 4), (-5.5, -3.5), (0.8, 16), (z - 1, z + 0.3), 0.55, d.tint((176, 182, 188)))
     wings(
         m,
@@ -182,8 +190,16 @@ def c17(m: Model, d: Draw) -> None:
         n=12,
     )
     for s in (-1, 1):
-        m.add([(a * 0.91, s * 0.1, z + 1.3), (a * 0.8, s * 0.1, z + 3.2), (a * 0.79, s * 2.2, z + 2.2), (a * 0.88, s * 1.9, z + 1.1)],
-              [(0, 1, 2), (0, 2, 3), (0, 2, 1), (0, 3, 2)], (30, 36, 42))  # fmt: skip
+        m.add(
+            [
+                (a * 0.91, s * 0.1, z + 1.3),
+                (a * 0.8, s * 0.1, z + 3.2),
+                (a * 0.79, s * 2.2, z + 2.2),
+                (a * 0.88, s * 1.9, z + 1.1),
+            ],
+            [(0, 1, 2), (0, 2, 3), (0, 2, 1), (0, 3, 2)],
+            (30, 36, 42),
+        )
     half = d.between(23, 25.5)
     wings(m, (-3, 6), (-8, -5), (0, half), (z + r - 0.3, z + r - 1.5), 0.9, grey)
     for s in (-1, 1):

@@ -197,10 +197,12 @@ def skyscraper(m: Model, d: Draw) -> None:
             t = 1 - (1 - taper[0]) * (z - base) / h
             m.box((0, 0, z), (a * t + 0.5, b * t + 0.5, h / bands * 0.3), frame)
         if style != 3:
-            for u in (-0.49, -0.17, 0.17, 0.49):
-                for s in (-0.5, 0.5):
+            for s in (-0.5, 0.5):
+                for u in (-0.17, 0.17):
                     m.box((s * a, u * b, base), (0.9, 1.1, h), frame)
                     m.box((u * a, s * b, base), (1.1, 0.9, h), frame)
+                for u in (-0.5, 0.5):
+                    m.box((s * a, u * b, base), (1.3, 1.3, h), frame)
         base += h
     if style in (0, 3):
         m.rod((0, 0, base), (0, 0, base + 16), 0.9, (150, 154, 160), end=0.2)

@@ -77,14 +77,12 @@ def places(part: Part, made: Shape) -> NDArray[np.float64]:
     return np.stack([across / width, up / (height + SIDE)], 1)
 
 
-def triangles(
-    made: Shape,
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Corners of all triangles, their normals and their places in the texture.
+def mesh(made: Shape) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """All triangles as one mesh.
 
     Returns:
-        (3 m, 3) metres, (3 m, 3) unit vectors, (3 m, 2) in [0, 1]; three rows for a triangle, which
-        share its normal, so that it looks flat.
+        (n, 8): metres, the unit normal and the place in the texture; and (m, 3) indices of rows.
+        Triangles share a corner only where they lie in one plane, so that they look flat.
 
     Raises:
         ShapeError: there is no triangle, an index leads nowhere, or a coordinate is not finite.
@@ -103,7 +101,9 @@ def triangles(
     a, b, c = corners[0::3], corners[1::3], corners[2::3]
     normals = np.cross(b - a, c - a)
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
-    return corners, np.repeat(normals, 3, 0), np.concatenate(spots)
+    rows = np.hstack([corners, np.repeat(normals, 3, 0), np.concatenate(spots)])
+    unique, back = np.unique(rows.round(5), axis=0, return_inverse=True)
+    return unique, back.reshape(-1, 3)
 
 
 class Bodies:
@@ -172,11 +172,11 @@ class Bodies:
         key = (made.name, round(scale, 4))
         if key not in self._shared:
             bullet, client = self._bullet, self._client
-            corners, normals, spots = triangles(made)
+            rows, faces = mesh(made)
             seen = bullet.createVisualShape(
-                bullet.GEOM_MESH, vertices=(corners * scale).tolist(),
-                indices=list(range(len(corners))), normals=normals.tolist(), uvs=spots.tolist(),
-                physicsClientId=client,
+                bullet.GEOM_MESH, vertices=(rows[:, :3] * scale).tolist(),
+                indices=faces.ravel().tolist(), normals=rows[:, 3:6].tolist(),
+                uvs=rows[:, 6:].tolist(), physicsClientId=client,
             )  # fmt: skip
             low, high = made.bounds * scale
             cls = made.name.partition("/")[0]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Callable
-from functools import lru_cache
+from functools import cache
 
 import numpy as np
 
@@ -12,7 +12,9 @@ from symboslam.errors import SymboSlamError, UnknownNameError
 from symboslam.sim_bridge.objects import (
     aircraft,
     animals,
+    army,
     buildings,
+    farm,
     people,
     plants,
     play,
@@ -42,13 +44,13 @@ BUILDERS: dict[str, Callable[[Model, Draw], None]] = {
     "Bomb": weapons.bomb,
     "Boy": people.boy,
     "Building": buildings.building,
-    "Bull": animals.bull,
+    "Bull": farm.bull,
     "Bus": vehicles.bus,
     "BusStop": street.bus_stop,
     "C17": aircraft.c17,
     "Car": vehicles.car,
     "Cat": animals.cat,
-    "Cattle": animals.cattle,
+    "Cattle": farm.cattle,
     "ConvenienceStore": works.convenience_store,
     "Dog": animals.dog,
     "Factory": works.factory,
@@ -58,20 +60,20 @@ BUILDERS: dict[str, Callable[[Model, Draw], None]] = {
     "GasStationPump": works.gas_station_pump,
     "Girl": people.girl,
     "Helicopter": aircraft.helicopter,
-    "Horse": animals.horse,
+    "Horse": farm.horse,
     "House": buildings.house,
-    "Humvee": vehicles.humvee,
+    "Humvee": army.humvee,
     "Kangaroo": animals.kangaroo,
     "LandVehicle": vehicles.land_vehicle,
     "Missile": weapons.missile,
-    "MissileLauncher": vehicles.missile_launcher,
+    "MissileLauncher": army.missile_launcher,
     "OfficeBuilding": buildings.office_building,
     "Person": people.person,
     "Plant": plants.plant,
     "PowerSubstation": works.power_substation,
     "Rifle": weapons.rifle,
     "Rotunda": buildings.rotunda,
-    "Sheep": animals.sheep,
+    "Sheep": farm.sheep,
     "ShippingContainer": works.shipping_container,
     "Silo": works.silo,
     "Skyscraper": buildings.skyscraper,
@@ -80,7 +82,7 @@ BUILDERS: dict[str, Callable[[Model, Draw], None]] = {
     "StopSign": street.stop_sign,
     "Swingset": play.swingset,
     "Table": street.table,
-    "Tank": vehicles.tank,
+    "Tank": army.tank,
     "Tower": buildings.tower,
     "TrafficLight": street.traffic_light,
     "Train": vehicles.train,
@@ -108,7 +110,7 @@ def variants(cls: str) -> list[str]:
     return [str(i) for i in range(VARIANTS)]
 
 
-@lru_cache(maxsize=None)
+@cache
 def shape(cls: str, variant: str = "0") -> Shape:
     """The shape of a variant, the same in every process; its arrays must not be changed.
 
@@ -136,7 +138,9 @@ def fitted(raw: Shape, size: tuple[float, float, float], draw: Draw) -> Shape:
     low, high = raw.bounds.astype(float)
     extent = np.maximum(high - low, 1e-6)
     wanted = np.asarray(size)
-    scale = np.exp((np.log(wanted / extent) * wanted).sum() / wanted.sum()) * draw.between(0.88, 1.15)
+    scale = np.exp((np.log(wanted / extent) * wanted).sum() / wanted.sum()) * draw.between(
+        0.88, 1.15
+    )
     scale = min(scale, float((LIMIT * wanted / extent).min()) / 1.05)
     factor = scale * draw.rng.uniform(0.95, 1.05, 3)
     shift = np.array([*((low + high)[:2] / 2), low[2]])

@@ -18,7 +18,12 @@ def scene(made: Shape) -> Any:
         import trimesh
     except ImportError as error:
         raise MissingExtraError("trimesh", "sim") from error
-    parts = [trimesh.Trimesh(p.vertices, p.faces, process=False) for p in made.parts]
-    for mesh, part in zip(parts, made.parts, strict=True):
-        mesh.visual.face_colors = part.rgba
-    return trimesh.Scene(parts)
+    return trimesh.Scene(
+        [
+            trimesh.Trimesh(
+                part.vertices, part.faces, process=False,
+                face_colors=[[round(255 * c) for c in part.rgba]] * len(part.faces),
+            )
+            for part in made.parts
+        ]
+    )  # fmt: skip

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from symboslam.sim_bridge.objects.draw import Draw
@@ -34,7 +36,7 @@ def basket(
     *,
     fine: bool = True,
 ) -> None:
-    """A pole with a board and a ring; ``axis`` is the way that it looks along, ``turn`` its sign."""
+    """A pole with a board and a ring; ``axis`` is where it looks, ``turn`` the sign of that."""
 
     def at(forward: float, side: float, z: float) -> tuple[float, float, float]:
         return (
@@ -59,7 +61,7 @@ def basket(
         at(arm + 0.3 + 0.26 * np.cos(t), 0.26 * np.sin(t), 3.05)
         for t in np.arange(n + 1) * 2 * np.pi / n
     ]
-    for a, b in zip(ring[:-1], ring[1:], strict=True):
+    for a, b in pairwise(ring):
         m.beam(a, b, (0.05, 0.05), ORANGE)
     if not fine:
         return
@@ -121,7 +123,7 @@ def basketball_court(m: Model, d: Draw) -> None:
             (6.2 * np.sin(t), s * (half - 1.5 - 6.2 * np.cos(t)), z + 0.03)
             for t in np.linspace(-1.5, 1.5, 9)
         ]
-        for a, b in zip(arc[:-1], arc[1:], strict=True):
+        for a, b in pairwise(arc):
             m.beam(a, b, (line, 0.02), WHITE)
         board = d.turn([WHITE, (206, 226, 232)])
         basket(
@@ -167,14 +169,14 @@ def soccer_goals(m: Model, d: Draw) -> None:
 
     upper, lower = np.array((top, 0, high)), np.array((back, 0, 0.05))
     for y in np.linspace(-half, half, 16):
-        thread(upper + (0, y, 0), lower + (0, y, 0), (0, 1, 0))
+        thread(upper + np.array((0, y, 0)), lower + np.array((0, y, 0)), (0, 1, 0))
         if top:
-            thread(np.array((0, y, high)), upper + (0, y, 0), (0, 1, 0))
+            thread(np.array((0, y, high)), upper + np.array((0, y, 0)), (0, 1, 0))
     for t in np.linspace(0.14, 0.86, 6):
-        p = upper + (lower - upper) * t
-        thread(p + (0, -half, 0), p + (0, half, 0), (0.5, 0, 1))
+        p = upper + np.array(lower - upper) * t
+        thread(p + np.array((0, -half, 0)), p + np.array((0, half, 0)), (0.5, 0, 1))
         for s in (-1, 1):
-            thread(p + (0, s * half, 0), np.array((0, s * half, p[2])), (0, 0, 1))
+            thread(p + np.array((0, s * half, 0)), np.array((0, s * half, p[2])), (0, 0, 1))
 
 
 def slide(m: Model, d: Draw) -> None:
@@ -198,7 +200,7 @@ def slide(m: Model, d: Draw) -> None:
             (1.2, 0.34),
             (1.7, 0.26),
         ]
-    for (xa, za), (xb, zb) in zip(path[:-1], path[1:], strict=True):
+    for (xa, za), (xb, zb) in pairwise(path):
         m.beam((xa, 0, za), (xb, 0, zb), (wide, 0.05), chute)
         for s in (-1, 1):
             m.beam((xa, s * b, za + 0.09), (xb, s * b, zb + 0.09), (0.06, 0.22), chute)

@@ -15,9 +15,12 @@ from symboslam.sim_bridge.objects.parts import Colour, Model, Part, Shape
 WIDTH = 300  # points across a board
 LONGEST = 40  # characters
 SCHEMES: tuple[tuple[Colour, Colour], ...] = (
-    ((20, 90, 50), (255, 255, 255)), ((30, 70, 150), (255, 255, 255)),
-    ((250, 250, 245), (20, 20, 24)), ((250, 205, 40), (20, 20, 20)), ((130, 50, 40), (255, 250, 240)),
-)  # fmt: skip
+    ((20, 90, 50), (255, 255, 255)),
+    ((30, 70, 150), (255, 255, 255)),
+    ((250, 250, 245), (20, 20, 24)),
+    ((250, 205, 40), (20, 20, 20)),
+    ((130, 50, 40), (255, 250, 240)),
+)
 FONTS = ("DejaVuSans-Bold.ttf", "DejaVuSans.ttf", "DejaVuSerif-Bold.ttf")
 
 
@@ -84,7 +87,8 @@ def _lines(text: str) -> list[str]:
     if len(text) <= 10 or len(words) == 1:
         return [text]
     cuts = [(" ".join(words[:i]), " ".join(words[i:])) for i in range(1, len(words))]
-    return list(min(cuts, key=lambda cut: max(len(cut[0]), len(cut[1]))))
+    first, second = min(cuts, key=lambda cut: max(len(cut[0]), len(cut[1])))
+    return [first, second]
 
 
 def _name(text: str, picture: NDArray[np.uint8], low: float, width: float) -> str:

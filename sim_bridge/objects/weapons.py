@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from symboslam.sim_bridge.objects.draw import Draw
-from symboslam.sim_bridge.objects.parts import Colour, Model
+from symboslam.sim_bridge.objects.parts import Model
 
 
 def missile(m: Model, d: Draw) -> None:
@@ -67,8 +67,16 @@ def bomb(m: Model, d: Draw) -> None:
         for u, v in ((s, s), (s, -s)):
             a = span * 0.8
             m.beam((-1.22, 0.05 * u, z + 0.05 * v), (-1.22, a * u, z + a * v), (0.03, 0.44), hull)
-            m.add([(-0.55, 0.1 * u, z + 0.1 * v), (-1.2, 0.05 * u, z + 0.05 * v), (-1.42, a * u, z + a * v), (-1.0, a * u, z + a * v)],
-                  [(0, 1, 2), (0, 2, 3), (0, 2, 1), (0, 3, 2)], hull)  # fmt: skip
+            m.add(
+                [
+                    (-0.55, 0.1 * u, z + 0.1 * v),
+                    (-1.2, 0.05 * u, z + 0.05 * v),
+                    (-1.42, a * u, z + a * v),
+                    (-1.0, a * u, z + a * v),
+                ],
+                [(0, 1, 2), (0, 2, 3), (0, 2, 1), (0, 3, 2)],
+                hull,
+            )
         a = span * 0.8
         m.box((-1.25, s * a, z - a), (0.3, 0.03, 2 * a), band if d.style(2, 2) else hull)
         m.box((-1.25, 0, z + s * a - 0.015), (0.3, 2 * a, 0.03), band if d.style(2, 2) else hull)

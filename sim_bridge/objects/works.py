@@ -9,9 +9,13 @@ from symboslam.sim_bridge.objects.draw import Draw
 from symboslam.sim_bridge.objects.parts import Colour, Model
 
 BRANDS: tuple[tuple[Colour, Colour], ...] = (
-    ((0, 120, 70), (240, 140, 30)), ((200, 30, 40), (250, 210, 60)), ((30, 80, 170), (240, 240, 240)),
-    ((240, 200, 40), (200, 40, 40)), ((120, 40, 130), (240, 230, 90)), ((20, 140, 160), (245, 245, 245)),
-)  # fmt: skip
+    ((0, 120, 70), (240, 140, 30)),
+    ((200, 30, 40), (250, 210, 60)),
+    ((30, 80, 170), (240, 240, 240)),
+    ((240, 200, 40), (200, 40, 40)),
+    ((120, 40, 130), (240, 230, 90)),
+    ((20, 140, 160), (245, 245, 245)),
+)
 STEEL: Colour = (150, 156, 162)
 
 
@@ -111,8 +115,18 @@ def gas_station_pump(m: Model, d: Draw) -> None:
             (0.06, 0.07),
             (200, 40, 40) if s > 0 else (40, 140, 60),
         )
-        m.tube([(0, y + s * 0.03, head - 0.05), (0.1, y + s * 0.2, head - 0.25), (0.14, y + s * 0.2, 0.4),
-                (0.08, y + s * 0.12, 0.3), (0.05, y + s * 0.1, 0.9)], 0.03, (20, 20, 20), n=4)  # fmt: skip
+        m.tube(
+            [
+                (0, y + s * 0.03, head - 0.05),
+                (0.1, y + s * 0.2, head - 0.25),
+                (0.14, y + s * 0.2, 0.4),
+                (0.08, y + s * 0.12, 0.3),
+                (0.05, y + s * 0.1, 0.9),
+            ],
+            0.03,
+            (20, 20, 20),
+            n=4,
+        )
 
 
 def factory(m: Model, d: Draw) -> None:
@@ -301,6 +315,8 @@ def power_substation(m: Model, d: Draw) -> None:
     """Transformers with cooling fins and insulators, gantries with wires, a fence, a warning."""
     m.box((0, 0, 0), (14, 18, 0.15), d.tint((156, 150, 140)))
     fence = (128, 134, 138)
+    x: float
+    y: float
     for x in np.linspace(-7, 7, 5):
         for y in (-9, 9):
             m.beam((x, y, 0), (x, y, 2.2), (0.12, 0.12), fence)

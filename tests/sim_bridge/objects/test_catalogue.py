@@ -13,7 +13,7 @@ from symboslam.errors import UnknownNameError
 from symboslam.sim_bridge import objects
 from symboslam.sim_bridge.objects import catalogue
 from symboslam.sim_bridge.objects.draw import Draw
-from symboslam.sim_bridge.objects.parts import Model, Part, Shape
+from symboslam.sim_bridge.objects.parts import Model, Shape
 
 ROOT = Path(__file__).parents[3]
 FEATURES = ROOT / "ontology" / "features-detector.ttl"
@@ -141,4 +141,4 @@ def test_export() -> None:
 
 
 def test_parts_are_plain() -> None:
-    assert all(isinstance(p, Part) and p.uv is None for p in objects.shape("Tree").parts)
+    assert all(part.uv is None for part in objects.shape("Tree").parts)
