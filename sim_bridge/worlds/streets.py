@@ -98,13 +98,12 @@ def lay_streets(extent: Extent, spacing: float, width: float, rng: np.random.Gen
     return Streets(extent, nodes, width)
 
 
-def open_streets(streets: Streets, rural: NDArray[np.bool_], rng: np.random.Generator) -> Network:
+def open_streets(streets: Streets, rural: NDArray[np.bool_]) -> Network:
     """Streets on the edges between blocks; few of them between blocks of open country.
 
     Args:
         streets: the grid.
         rural: (columns, rows) which blocks are open country.
-        rng: of the world.
 
     Returns:
         The widths; the border of the world has no street.

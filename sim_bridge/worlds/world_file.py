@@ -52,7 +52,9 @@ def read_world(source: str | Path) -> tuple[World, Notes]:
     try:
         text = Path(source).read_bytes().decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise WorldError(f"not UTF-8 at byte {error.start}: save it as UTF-8", source=name) from None
+        raise WorldError(
+            f"not UTF-8 at byte {error.start}: save it as UTF-8", source=name
+        ) from None
     except OSError as error:
         raise WorldError(f"cannot be read: {error.strerror or error}", source=name) from error
     if not text.strip():

@@ -57,9 +57,7 @@ def _seeds(
     """Blocks to begin at: free ones, where the patch wants them, far from each other."""
     columns, rows = streets.shape
     i, j = np.meshgrid(np.arange(columns), np.arange(rows), indexing="ij")
-    depth = np.minimum(
-        np.minimum(i, columns - 1 - i) / columns, np.minimum(j, rows - 1 - j) / rows
-    )
+    depth = np.minimum(np.minimum(i, columns - 1 - i) / columns, np.minimum(j, rows - 1 - j) / rows)
     score = rng.uniform(0, 0.2, streets.shape)
     if patch.where == "centre":
         score += depth * 2
