@@ -1,4 +1,4 @@
-"""Write the class counts of real zones that worlds are made from: class_frequencies.py COUNTS [OUT].
+"""Write the class counts of real zones for worlds: class_frequencies.py COUNTS [OUT].
 
 COUNTS is a CSV of OpenStreetMap tags by zone: columns key, value and one for each environment; the
 first row, ``(zone area km2)``, holds the area in which the rest was counted. Tags become detector
@@ -78,7 +78,7 @@ def table(counts: str, features: tuple[Feature, ...]) -> tuple[str, list[str]]:
 
 
 def shared(total: int, weights: dict[str, int]) -> list[tuple[str, int]]:
-    """A whole number shared out by weights, by largest remainders; all to Building if these are few."""
+    """A whole number shared out by weights, by remainders; all to Building if these are few."""
     whole = sum(weights.values())
     if whole < LEAST_TOLD:
         return [("Building", total)]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
 from symboslam.sim_bridge.worlds.habits import Habit
 from symboslam.sim_bridge.worlds.streets import Floats
@@ -86,7 +87,7 @@ class Block:
         return bool((gaps > radius + _APART).all())
 
     def _at_street(
-        self, habit: Habit, radius: float, streets: Floats, rng: np.random.Generator
+        self, habit: Habit, radius: float, streets: NDArray[np.intp], rng: np.random.Generator
     ) -> Pose:
         """Beside a street, turned along it."""
         share = self.length[streets] / self.length[streets].sum()
@@ -96,7 +97,9 @@ class Block:
         place = place + self.inward[edge] * (self.margin[edge] + radius + back)
         return float(place[0]), float(place[1]), self._direction(edge)
 
-    def _at_corner(self, radius: float, streets: Floats, rng: np.random.Generator) -> Pose:
+    def _at_corner(
+        self, radius: float, streets: NDArray[np.intp], rng: np.random.Generator
+    ) -> Pose:
         """Beside the crossing at the beginning of a street's edge."""
         edge = int(rng.choice(streets))
         before = (edge - 1) % 4

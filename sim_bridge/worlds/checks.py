@@ -16,6 +16,7 @@ ROBOT_RADIUS = 0.8
 """Half the diagonal of the largest robot, in metres."""
 _STEP = 0.5
 _TURNS = 24
+_SLIVER = 1.0  # square metres of overlap that are roundings
 _TOUCH = 0.98  # overlaps of less than a fiftieth of the size are roundings
 
 
@@ -85,11 +86,11 @@ def _zone_notes(world: World) -> list[str]:
         for a, b in zip(first[both].tolist(), second[both].tolist(), strict=True)
     ]
     notes = []
-    if (over := sum(area > 0.01 for area in areas)) > 0:
+    if (over := sum(area > _SLIVER for area in areas)) > 0:
         notes.append(f"{_many(over, 'pair')} of zones overlap: the smaller zone counts there")
     e = world.extent
     box = shapely.box(e.min_x, e.min_y, e.max_x, e.max_y)
-    out = sum(shape.difference(box).area > 0.01 for shape in shapes)
+    out = sum(shape.difference(box).area > _SLIVER for shape in shapes)
     if out:
         notes.append(f"{_many(out, 'zone')} beyond the extent")
     return notes

@@ -18,6 +18,7 @@ import numpy as np
 from symboslam.errors import WorldError
 from symboslam.sim_bridge.worlds.checks import Notes, checked
 from symboslam.sim_bridge.worlds.eyesim_names import ROBOTS, class_of, group_of
+from symboslam.sim_bridge.worlds.starts import with_starts
 from symboslam.sim_bridge.worlds.voronoi import zones_around
 from symboslam.sim_bridge.worlds.world import (
     Extent,
@@ -82,7 +83,7 @@ def read_eyesim(source: str | Path, *, area_km2: float | None = None) -> tuple[W
     world = _world(path, scene, area_km2)
     if scene.unknown:
         scene.notes.append(f"left out, no class of ours: {_listed(scene.unknown)}")
-    world, odd = checked(world, str(source))
+    world, odd = checked(with_starts(world), str(source))
     return world, (*scene.notes, *odd)
 
 
@@ -172,8 +173,8 @@ def _add(scene: _Scene, name: str, x: float, y: float, turn: float, group: str |
 
 def _size_from_objects(scene: _Scene) -> None:
     """The usual toy world, or more if objects lie beyond it."""
-    for axis, name in ((2, "width"), (3, "height")):
-        setattr(scene, name, max([TOY_MM, *(float(o[axis]) for o in scene.objects)]))  # type: ignore[arg-type]
+    scene.width = max([TOY_MM, *(o[2] for o in scene.objects)])
+    scene.height = max([TOY_MM, *(o[3] for o in scene.objects)])
 
 
 def _world(path: Path, scene: _Scene, area_km2: float | None) -> World:

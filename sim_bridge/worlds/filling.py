@@ -18,7 +18,7 @@ from symboslam.sim_bridge.worlds.zoning import Zoning
 
 Cell = tuple[int, int]
 
-_CLUMPS = 1.5  # shape of the gamma distribution by which blocks of a zone differ; small = clumpy
+_CLUMPS = 2.5  # shape of the gamma distribution by which blocks of a zone differ; small = clumpy
 _REDRAWS = 60
 
 

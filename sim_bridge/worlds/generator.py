@@ -16,6 +16,7 @@ from symboslam.sim_bridge.worlds.checks import Notes, free_starts
 from symboslam.sim_bridge.worlds.filling import Filler
 from symboslam.sim_bridge.worlds.frequencies import real_frequencies
 from symboslam.sim_bridge.worlds.plans import PLANS, Plan, find_plan, get_plan
+from symboslam.sim_bridge.worlds.starts import spread
 from symboslam.sim_bridge.worlds.streets import (
     Network,
     Streets,
@@ -30,8 +31,6 @@ ATTRIBUTION = (
     "Synthetic: a made-up place. Class frequencies after OpenStreetMap, (c) OpenStreetMap "
     "contributors, ODbL 1.0"
 )
-STARTS = 10
-"""Robot starts of a generated world."""
 
 
 def world_by_name(name: str, seed: int = 7) -> World:
@@ -99,27 +98,15 @@ def generate(plan: Plan, seed: int = 7) -> World:
 
 
 def _starts(streets: Streets, network: Network) -> tuple[Start, ...]:
-    """Middles of streets between crossings: the first near the centre, each next far from all."""
+    """Some middles of streets between crossings."""
     n = streets.nodes
-    middles, headings = [], []
+    places, headings = [], []
     for begin, end, width in (
         (n[:-1], n[1:], network.across),
         (n[:, :-1], n[:, 1:], network.along),
     ):
         there = width > 0
-        middles.append(((begin + end) / 2)[there])
+        places.append(((begin + end) / 2)[there])
         step = (end - begin)[there]
-        headings.append(np.arctan2(step[:, 1], step[:, 0]) % (2 * math.pi))
-    places, turns = np.vstack(middles), np.concatenate(headings)
-    e = streets.extent
-    centre = np.array([(e.min_x + e.max_x) / 2, (e.min_y + e.max_y) / 2])
-    chosen = [int(np.argmin(np.hypot(*(places - centre).T)))]
-    gaps = np.full(len(places), np.inf)
-    while len(chosen) < min(STARTS, len(places)):
-        gaps = np.minimum(gaps, np.hypot(*(places - places[chosen[-1]]).T))
-        chosen.append(int(np.argmax(gaps)))
-    return tuple(
-        Start(round(float(places[i, 0]), 2), round(float(places[i, 1]), 2),
-              round(float(turns[i]), 4))
-        for i in chosen
-    )  # fmt: skip
+        headings.append(np.arctan2(step[:, 1], step[:, 0]))
+    return spread(np.vstack(places), np.concatenate(headings), streets.extent)

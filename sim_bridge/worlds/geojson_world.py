@@ -6,11 +6,14 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
+from symboslam.engine.frame import Frame
 from symboslam.errors import WorldError
 from symboslam.reasoning.knowledge import Knowledge
 from symboslam.sim_bridge.worlds.checks import Notes, checked
 from symboslam.sim_bridge.worlds.stand_ins import stand_in
+from symboslam.sim_bridge.worlds.starts import with_starts
 from symboslam.sim_bridge.worlds.voronoi import zone_of, zones_around
 from symboslam.sim_bridge.worlds.world import Extent, World, WorldObject, Zone
 
@@ -63,26 +66,23 @@ def read_geojson_world(
     if truth is None:
         notes.append("no zones beside it: the world has no truth")
     else:
-        found, about = _zones(truth, read.frame.to_metres, extent)
+        found, about = _zones(truth, read.frame, extent)
         world = replace(world, zones=found)
         notes += about
-    world, odd = checked(world, str(landmarks))
+    world, odd = checked(with_starts(world), str(landmarks))
     return world, (*notes, *odd)
 
 
-def _zones(
-    source: str | Path, to_metres: object, extent: Extent
-) -> tuple[tuple[Zone, ...], list[str]]:
+def _zones(source: str | Path, frame: Frame, extent: Extent) -> tuple[tuple[Zone, ...], list[str]]:
     """Zones of a truth, moved into the landmarks' frame."""
     import shapely
 
     from symboslam.engine.evaluation.places import read_places
 
     places = read_places(source, points=True)
-    assert callable(to_metres)
 
-    def moved(coordinates: np.ndarray) -> np.ndarray:  # type: ignore[type-arg]
-        return np.column_stack(to_metres(coordinates[:, 0], coordinates[:, 1]))
+    def moved(coordinates: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.column_stack(frame.to_metres(coordinates[:, 0], coordinates[:, 1]))
 
     shapes = shapely.transform(places.geometry, moved)
     notes = list(places.notes)

@@ -15,11 +15,11 @@ _FRONT = (
 _KERB = "BusStop Car Bus LandVehicle FireHydrant Billboard"
 _CORNER = "TrafficLight StopSign"
 
-HABITS: dict[str, Habit] = (
-    dict.fromkeys(_FRONT.split(), "front")
-    | dict.fromkeys(_KERB.split(), "kerb")
-    | dict.fromkeys(_CORNER.split(), "corner")
-)  # type: ignore[assignment]
+HABITS: dict[str, Habit] = {
+    **dict.fromkeys(_FRONT.split(), "front"),
+    **dict.fromkeys(_KERB.split(), "kerb"),
+    **dict.fromkeys(_CORNER.split(), "corner"),
+}
 """Class -> habit; all others stand on the ground."""
 
 NEAR: dict[str, tuple[str, ...]] = {

@@ -1,4 +1,4 @@
-"""Picture: a world as a PNG: zones in the environments' colours, streets, objects, legend, scale."""
+"""Picture: a world as a PNG: zones in their environments' colours, streets, objects, a legend."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def draw_world(world: World, target: str | Path) -> None:
     longer = max(e.width, e.height)
     wide, high = _INCHES * e.width / longer, _INCHES * e.height / longer
     high_panel = max(high, 5.6)
-    figure = Figure(figsize=(wide + 3.1, high_panel + 0.75), dpi=_DPI, facecolor="white")
+    figure = Figure(figsize=(wide + 3.1, high_panel + 0.95), dpi=_DPI, facecolor="white")
     FigureCanvasAgg(figure)
     total_w, total_h = figure.get_size_inches()
     axes = figure.add_axes(
@@ -160,7 +160,7 @@ def _draw_objects(axes: Axes, world: World) -> list[Any]:
 
 
 def _draw_scale(axes: Axes, world: World) -> None:
-    """A bar of a round length."""
+    """A bar of a round length below the map."""
     from matplotlib.patches import Rectangle
 
     from symboslam.engine.writers.png import round_length
@@ -169,11 +169,7 @@ def _draw_scale(axes: Axes, world: World) -> None:
     e = world.extent
     unit = max(e.width, e.height) / 100
     length = round_length(min(0.25 * e.width, 25 * unit))
-    x, y = e.min_x + 2 * unit, e.min_y + 2 * unit
-    axes.add_patch(
-        Rectangle((x - unit, y - unit), length + 2 * unit, 5 * unit, facecolor="white",
-                  alpha=0.85, zorder=7)
-    )  # fmt: skip
-    axes.add_patch(Rectangle((x, y), length, 0.8 * unit, facecolor=INK, zorder=8))
+    x, y = e.min_x, e.min_y - 2.4 * unit
+    axes.add_patch(Rectangle((x, y), length, 0.9 * unit, facecolor=INK, clip_on=False))
     text = f"{length / 1000:g} km" if length >= 1000 else f"{length:g} m"
-    axes.text(x + length / 2, y + 1.2 * unit, text, ha="center", size=9, color=INK, zorder=8)
+    axes.text(x + length + unit, y + 0.4 * unit, text, va="center", size=10, color=INK)

@@ -1,4 +1,4 @@
-"""Voronoi: zones from points whose environment is known: each place belongs to the nearest point."""
+"""Voronoi: zones from points of known environment: each place belongs to the nearest point."""
 
 from __future__ import annotations
 

@@ -74,8 +74,7 @@ def _seeds(
             open_blocks[a, b] = -np.inf
         if not np.isfinite(open_blocks).any():
             break
-        a, b = np.unravel_index(int(np.argmax(open_blocks)), streets.shape)
-        found.append((int(a), int(b)))
+        found.append(divmod(int(np.argmax(open_blocks)), rows))
     return found
 
 
