@@ -20,13 +20,18 @@ _SLIVER = 1.0  # square metres of overlap that are roundings
 _TOUCH = 0.98  # overlaps of less than a fiftieth of the size are roundings
 
 
-def checked(world: World, source: str) -> tuple[World, Notes]:
+def checked(world: World, source: str, strict: bool = True) -> tuple[World, Notes]:
     """The world with its starts outside of objects, and notes on what is odd.
+
+    Args:
+        world: it.
+        source: the file, for messages.
+        strict: whether a start without any free place near it is an error; else it is left out.
 
     Raises:
         WorldError: a start has no free place near it.
     """
-    world, moved = free_starts(world, source)
+    world, moved = free_starts(world, source, strict)
     notes = [_outside(world), _overlaps(world), *_zone_notes(world), *moved]
     return world, tuple(note for note in notes if note)
 
@@ -96,7 +101,9 @@ def _zone_notes(world: World) -> list[str]:
     return notes
 
 
-def free_starts(world: World, source: str = "world") -> tuple[World, list[str]]:
+def free_starts(
+    world: World, source: str = "world", strict: bool = True
+) -> tuple[World, list[str]]:
     """Starts inside objects or outside the extent moved to the nearest free place.
 
     A place is free if a robot of ``ROBOT_RADIUS`` touches no footprint, no wall and no other
@@ -116,6 +123,9 @@ def free_starts(world: World, source: str = "world") -> tuple[World, list[str]]:
     notes = []
     for number, start in enumerate(world.starts):
         place = _nearest_free(world, tree, taken, start)
+        if place is None and not strict:
+            notes.append(f"start {number} was left out: there is no free place near it")
+            continue
         if place is None:
             problem = "no free place near it: give another start or a larger extent"
             raise WorldError(problem, source=source, where=f"starts[{number}]")

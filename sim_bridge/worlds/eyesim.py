@@ -83,7 +83,9 @@ def read_eyesim(source: str | Path, *, area_km2: float | None = None) -> tuple[W
     world = _world(path, scene, area_km2)
     if scene.unknown:
         scene.notes.append(f"left out, no class of ours: {_listed(scene.unknown)}")
-    world, odd = checked(with_starts(world), str(source))
+    if area_km2 is None and scene.objects:
+        scene.notes.append("millimetres were taken as such, objects in full size: give the area")
+    world, odd = checked(with_starts(world), str(source), strict=False)
     return world, (*scene.notes, *odd)
 
 

@@ -26,6 +26,8 @@ MODELS = {
     "gazebo": "Rotunda",
     "hedge": "Plant",
     "helo": "AttackHelicopter",
+    "helo_v1": "Helicopter",
+    "helo_v2": "Helicopter",
     "hydrant": "FireHydrant",
     "jsf": "FighterJet",
     "kid1": "Boy",

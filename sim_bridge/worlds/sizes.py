@@ -107,4 +107,4 @@ def near_classes(name: str) -> list[str]:
     """Up to three classes whose names come close."""
     from difflib import get_close_matches
 
-    return [_BY_CASE[n] for n in get_close_matches(name.casefold(), _BY_CASE, n=3, cutoff=0.6)]
+    return [_BY_CASE[n] for n in get_close_matches(name.casefold(), _BY_CASE, n=3, cutoff=0.7)]
