@@ -22,13 +22,18 @@ from symboslam.sim_bridge.worlds.stand_ins import stand_in
 
 OUT = Path(__file__).parents[1] / "sim_bridge/worlds/class_frequencies.csv"
 LEAST_TOLD = 10
+SITES = {
+    "(school)": "building=school amenity=school amenity=kindergarten",
+    "(restaurant)": "amenity=restaurant amenity=cafe amenity=fast_food amenity=pub amenity=bar",
+    "(stadium)": "building=stadium",
+}
 HEAD = """\
 # Made by scripts/class_frequencies.py; do not edit.
 # Counts of OpenStreetMap objects by zone type in Liechtenstein, Helsinki, Monaco and Prattville,
 # zones after the ACT Territory Plan; (c) OpenStreetMap contributors, ODbL 1.0.
 # Tags were turned into the 56 detector classes; first row: square kilometres that were counted.
 # building=yes is shared out in proportion to the buildings of the zone whose kind is told (if 10 or
-# more are).
+# more are). Rows in brackets are no classes: what else stands or walks there is told by companions.
 """
 
 
@@ -53,6 +58,10 @@ def table(counts: str, features: tuple[Feature, ...]) -> tuple[str, list[str]]:
     unseen = []
     for key, value, *numbers in rows[2:]:
         number = Counter({e: int(n) for e, n in zip(environments, numbers, strict=True)})
+        for site, site_tags in SITES.items():
+            if f"{key}={value}" in site_tags.split():
+                found[site].update(number)
+                tags[site].append(f"{key}={value}")
         if (key, value) == ("building", "yes"):
             untold = number
             continue

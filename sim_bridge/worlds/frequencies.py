@@ -38,10 +38,21 @@ COMPANIONS: tuple[tuple[str, str, float], ...] = (
     ("BasketballBackboard", "Swingset", 0.2),
     ("SoccerGoals", "Swingset", 0.3),
     ("Rotunda", "Bench", 0.03),
+    ("Boy", "(school)", 1.5),
+    ("Girl", "(school)", 1.5),
+    ("BasketballCourt", "(school)", 0.3),
+    ("BasketballBackboard", "(school)", 0.3),
+    ("SoccerGoals", "(school)", 0.3),
+    ("Person", "(restaurant)", 0.5),
+    ("Table", "(restaurant)", 0.5),
+    ("SoccerGoals", "(stadium)", 2.0),
+    ("Person", "(stadium)", 2.0),
 )
-"""Classes that no map counts (people, animals, vehicles, ...): each with a class that is counted
-and how many come with one of it. They are spread over zone types as their hosts are; the ratios are
-our assumption."""
+"""Classes that no map counts (people, animals, vehicles, ...).
+
+Each comes with a class or site that is counted, so many to one of it, and is spread over zone types
+as that is. The ratios are our assumption.
+"""
 
 OPEN_GROUND: Mapping[str, float] = {
     "Cattle": 3.0,
@@ -60,10 +71,12 @@ class Frequencies:
     Attributes:
         area_km2: environment -> square kilometres that were counted.
         counts: class -> environment -> objects that were counted.
+        sites: a site such as ``(school)`` -> environment -> how many were counted.
     """
 
     area_km2: Mapping[str, float]
     counts: Mapping[str, Mapping[str, int]]
+    sites: Mapping[str, Mapping[str, int]]
 
     @property
     def environments(self) -> tuple[str, ...]:
@@ -80,10 +93,11 @@ class Frequencies:
     def density(self, environment: str) -> dict[str, float]:
         """Class -> objects per square kilometre: counted ones, companions, animals outdoors."""
         found = self.counted(environment)
-        counted = dict(found)
+        area = self.area_km2[environment]
+        hosts = found | {name: row[environment] / area for name, row in self.sites.items()}
         for name, host, ratio in COMPANIONS:
-            if host in counted:
-                found[name] = found.get(name, 0.0) + ratio * counted[host]
+            if hosts.get(host, 0.0) > 0:
+                found[name] = found.get(name, 0.0) + ratio * hosts[host]
         if environment == "NonUrban":
             for name, rate in OPEN_GROUND.items():
                 found[name] = found.get(name, 0.0) + rate
@@ -99,4 +113,6 @@ def real_frequencies() -> Frequencies:
     found = {row.pop("class"): {k: v for k, v in row.items() if k != "tags"} for row in rows}
     area = {name: float(value) for name, value in found.pop("(km2)").items()}
     counts = {name: {e: int(n) for e, n in row.items()} for name, row in found.items()}
-    return Frequencies(area, counts)
+    classes = {name: row for name, row in counts.items() if not name.startswith("(")}
+    sites = {name: row for name, row in counts.items() if name.startswith("(")}
+    return Frequencies(area, classes, sites)

@@ -68,7 +68,7 @@ def read_geojson_world(
     else:
         found, about = _zones(truth, read.frame, extent)
         world = replace(world, zones=found)
-        notes += about
+        notes += [f"zones of {truth}", *about]
     world, odd = checked(with_starts(world), str(landmarks), strict=False)
     return world, (*notes, *odd)
 

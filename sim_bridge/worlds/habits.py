@@ -24,9 +24,9 @@ HABITS: dict[str, Habit] = {
 
 NEAR: dict[str, tuple[str, ...]] = {
     "GasStationPump": ("GasStation",),
-    "Table": ("Bench", "Table"),
-    "Girl": ("Swingset", "Slide", "House", "Girl"),
-    "Boy": ("Swingset", "Slide", "House", "Boy"),
+    "Table": ("Bench", "Table", "ConvenienceStore"),
+    "Girl": ("Swingset", "Slide", "House", "Boy", "Girl"),
+    "Boy": ("Swingset", "Slide", "House", "Boy", "Girl"),
     "BasketballBackboard": ("BasketballCourt",),
 }
 """Class -> what it likes to be near, in place of its own class."""

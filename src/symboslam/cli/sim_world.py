@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from symboslam.cli.common import progress_bar, show
+from symboslam.cli.slam_common import plural
 from symboslam.errors import InputError, OutputError
 
 if TYPE_CHECKING:
@@ -132,8 +133,9 @@ def _summary(made: World) -> str:
     e = made.extent
     return (
         f"{made.name}: {e.width:,.1f} m x {e.height:,.1f} m = {e.area_km2:.4f} km2, "
-        f"{len(made.objects):,} objects of {len(made.class_counts)} classes, "
-        f"{len(made.zones)} zones, {len(made.starts)} robot starts"
+        f"{plural(len(made.objects), 'object')} of "
+        f"{plural(len(made.class_counts), 'class', 'classes')}, "
+        f"{plural(len(made.zones), 'zone')}, {plural(len(made.starts), 'robot start')}"
     )
 
 

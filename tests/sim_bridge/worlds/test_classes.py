@@ -53,7 +53,8 @@ def test_sizes_are_sizes() -> None:
 def test_tables_name_classes_that_exist(knowledge: Knowledge) -> None:
     named = {*HABITS, *NEAR, *ALIGNED, *SIGNS, *OPEN_GROUND, *(c for c, _, _ in COMPANIONS)}
     assert named <= set(CLASSES)
-    assert {host for _, host, _ in COMPANIONS} <= set(real_frequencies().counts)
+    table = real_frequencies()
+    assert {host for _, host, _ in COMPANIONS} <= {*table.counts, *table.sites}
     assert set(real_frequencies().counts) <= set(CLASSES)
     assert set(BY_FEATURE) <= {f.name for f in knowledge.features}
 
@@ -83,6 +84,7 @@ def test_script_shares_out_untold_buildings(script: ModuleType, knowledge: Knowl
     assert rows == [
         ["class", "Residential", "Commercial"],
         ["(km2)", "10.0", "2.0"],
+        ["(restaurant)", "5", "6"],
         ["Apartment", "35", "0"],
         ["Building", "0", "3"],
         ["House", "105", "1"],

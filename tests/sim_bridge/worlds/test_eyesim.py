@@ -79,7 +79,7 @@ def test_scene_scaled_to_an_area(scene: Path) -> None:
     world, _ = read_eyesim(scene, area_km2=2.0)
     assert world.extent.area_km2 == pytest.approx(2.0)
     assert world.objects[0].x == pytest.approx(200)
-    assert [(s.x, s.y) for s in world.starts] == [(pytest.approx(70), pytest.approx(30))]
+    assert [v for s in world.starts for v in (s.x, s.y)] == pytest.approx([70, 30])
 
 
 def test_zones_hold_the_objects_of_their_groups(scene: Path) -> None:
