@@ -5,6 +5,7 @@
     SymboSlamError
     ├── InputError              a file, option or value that the user gave is wrong (exit code 2)
     │   ├── LandmarkError       landmarks: names the file and the feature or line
+    │   ├── WorldError          a world for robots: names the file and the place in it
     │   ├── GeometryError       a bounding box, surveyed area or coordinate system
     │   └── UnknownNameError    a feature, environment, scheme or segment that does not exist
     ├── OntologyError           an ontology that cannot be used (exit code 2)
@@ -40,6 +41,20 @@ class LandmarkError(InputError):
         problem: what is wrong and what to do about it.
         source: the file or stream.
         where: the place in it, such as ``feature 12`` or ``line 7``.
+    """
+
+    def __init__(self, problem: str, *, source: str = "", where: str = "") -> None:
+        self.problem, self.source, self.where = problem, source, where
+        super().__init__(": ".join(part for part in (source, where, problem) if part))
+
+
+class WorldError(InputError):
+    """A world file, or one part of it, is wrong.
+
+    Args:
+        problem: what is wrong and what to do about it.
+        source: the file.
+        where: the place in it, such as ``objects[3].x`` or ``line 7``.
     """
 
     def __init__(self, problem: str, *, source: str = "", where: str = "") -> None:

@@ -22,6 +22,7 @@ from symboslam.cli import (
     query,
     serve,
     show,
+    sim,
     slam,
     store,
     token,
@@ -75,6 +76,7 @@ app.add_typer(cq.app, name="cq")
 app.add_typer(token.app, name="token")
 app.add_typer(store.app, name="store")
 app.add_typer(slam.app, name="slam")
+app.add_typer(sim.app, name="sim")
 
 
 def _version(wanted: bool) -> None:

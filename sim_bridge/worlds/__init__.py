@@ -1,0 +1,1 @@
+"""Worlds for robots: their file format, importers, and a seeded generator of the paper's areas."""
