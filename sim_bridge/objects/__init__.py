@@ -18,7 +18,7 @@ from symboslam.sim_bridge.objects.catalogue import (
 from symboslam.sim_bridge.objects.export import scene
 from symboslam.sim_bridge.objects.parts import Part, Shape
 from symboslam.sim_bridge.objects.signs import sign
-from symboslam.sim_bridge.objects.sizes import SIZES
+from symboslam.sim_bridge.worlds.sizes import SIZES
 
 __all__ = [
     "SIZES",

@@ -25,7 +25,7 @@ from symboslam.sim_bridge.objects import (
 )
 from symboslam.sim_bridge.objects.draw import Draw
 from symboslam.sim_bridge.objects.parts import Model, Part, Shape
-from symboslam.sim_bridge.objects.sizes import SIZES
+from symboslam.sim_bridge.worlds.sizes import SIZES
 
 VARIANTS = 16
 # Of the nominal size, along each axis, a shape is at most this.
@@ -125,7 +125,7 @@ def shape(cls: str, variant: str = "0") -> Shape:
     try:
         BUILDERS[cls](model, draw)
         raw = model.build(f"{cls}/{variant}")
-        return fitted(raw, SIZES[cls], draw)
+        return fitted(raw, SIZES[cls][:3], draw)
     except (ArithmeticError, LookupError, TypeError, ValueError) as error:
         raise ShapeError(f"the model of {cls}, variant {variant}, failed: {error}") from error
 
@@ -154,7 +154,8 @@ def fitted(raw: Shape, size: tuple[float, float, float], draw: Draw) -> Shape:
 def placeholder(cls: str) -> Shape:
     """A plain box of the class's size (one metre where the class is unknown)."""
     model = Model()
-    model.box((0, 0, 0), SIZES.get(cls, (1.0, 1.0, 1.0)), (200, 60, 200))
+    size = SIZES[cls][:3] if cls in SIZES else (1.0, 1.0, 1.0)
+    model.box((0, 0, 0), size, (200, 60, 200))
     return model.build(f"{cls}/placeholder")
 
 

@@ -235,7 +235,7 @@ def test_starts_inside_objects_are_moved_out() -> None:
     assert world == world_of(document(starts=starts))[0]
     assert world.starts[0].heading == 1.0
     house = world.objects[0]
-    assert abs(world.starts[0].y - house.y) > 4.75 or abs(world.starts[0].x - house.x) > 6.5
+    assert abs(world.starts[0].y - house.y) > 6.0 or abs(world.starts[0].x - house.x) > 5.0
     assert world.starts[1] == Start(90, 10)
     assert world.extent.has(world.starts[2].x, world.starts[2].y)
     assert [note.split(" was")[0] for note in notes] == ["start 0", "start 2"]
