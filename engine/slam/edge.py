@@ -70,6 +70,20 @@ class EdgeMapper:
         """What is wrong with what came, one sentence each."""
         return [f"{problem}: {times}" for problem, times in sorted(self._keys.problems.items())]
 
+    @property
+    def pose(self) -> Pose | None:
+        """Where the robot was at its last key pose, by its own map; None before the first."""
+        edge = self._run.edge_map()
+        if edge is None:
+            return None
+        x, y, heading = edge.estimate.tolist()
+        return x, y, heading
+
+    @property
+    def key_odometry(self) -> Pose:
+        """What odometry said at the last key pose."""
+        return self._keys.key_odometry
+
     def odometry(self, time: float, pose: Pose) -> None:
         """Where the robot believes to be, in a frame of its own: metres, radians, seconds."""
         self._keys.odometry(time, *pose)

@@ -60,6 +60,11 @@ class KeyPoses:
         self._rows = 0
         self.problems: Counter[str] = Counter()
 
+    @property
+    def key_odometry(self) -> Planar:
+        """What odometry said at the last key pose; (0, 0, 0) before the first."""
+        return self._key[1]
+
     def odometry(self, time: float, x: float, y: float, heading: float) -> list[Sighting]:
         """Where the robot believes to be; returns the sightings that can be placed by it."""
         if not math.isfinite(time + x + y + heading):

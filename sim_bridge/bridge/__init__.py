@@ -1,0 +1,1 @@
+"""Bridge: worlds, robots and sensors in pybullet; it needs the extra ``symboslam[sim]``."""

@@ -1,0 +1,104 @@
+"""Ranging: from a box in a picture to the range and bearing of the object's middle.
+
+The bearing is that of the box's middle. The range is what lidar rays in the box measure, and half
+the nominal depth of the class. The height of the box tells roughly how far such a thing should be;
+rays that hit something else do not agree with it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from symboslam.sim_bridge.bridge.detections import Box, Detection
+from symboslam.sim_bridge.bridge.lidar import Lidar
+from symboslam.sim_bridge.bridge.settings import CameraSpec
+from symboslam.sim_bridge.worlds.sizes import SIZES
+
+SIGMA_RANGE = 1.5
+"""Metres: what buildings differ from their nominal depth, and where on them rays hit."""
+SIGMA_BEARING = 0.02
+"""Radians: a third of a degree for the points of the picture, more for what is half hidden."""
+AGREE = 2.0
+"""A ray may measure so many times more or less than the height of the box tells."""
+MIDDLE = 0.6
+"""Share of a box's width, around its middle, in which rays count."""
+GROUND = 30.0
+"""Metres up to which the foot of a box on the ground gives a range where no ray does."""
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Where something is, from the robot.
+
+    Attributes:
+        range: metres to its middle; NaN if it could not be measured.
+        bearing: radians to the left of the heading.
+    """
+
+    range: float
+    bearing: float
+
+
+def whole(box: Box, spec: CameraSpec) -> bool:
+    """Whether a box is wholly in frame, but that its top may be cut.
+
+    A tower next to a robot never fits into the picture; its bearing is right all the same.
+    """
+    left, _, right, bottom = box
+    return left > 0 and right < spec.width and bottom < spec.height
+
+
+def bearing_of(column: float, spec: CameraSpec) -> float:
+    """Radians to the left of the heading, of a column of the picture (0 is its left edge)."""
+    return math.atan2(spec.width / 2 - column, spec.focal)
+
+
+def expected_range(detection: Detection, spec: CameraSpec) -> float:
+    """Metres at which a thing of its class's nominal height has a box as high as this one.
+
+    If the top is cut it is farther than this, so that only half of the estimate says something.
+    """
+    _, top, _, bottom = detection.box
+    return SIZES[detection.kind].height * spec.focal / max(bottom - top, 1)
+
+
+def measure(
+    detection: Detection, lidar: Lidar, pose: tuple[float, float, float], spec: CameraSpec
+) -> Measured | None:
+    """Range and bearing of a detection.
+
+    Args:
+        detection: of the picture that was taken from ``pose``.
+        lidar: casts the rays.
+        pose: of the robot; only the rays' origin.
+        spec: of the camera.
+
+    Returns:
+        None if it is not wholly in frame.
+    """
+    if not whole(detection.box, spec):
+        return None
+    left, top, right, bottom = detection.box
+    middle = (left + right) / 2
+    bearing = bearing_of(middle, spec)
+    half = MIDDLE * (right - left) / 2
+    scan = lidar.between(
+        pose, bearing_of(middle + half, spec), bearing_of(middle - half, spec)
+    )
+    depth = expected_range(detection, spec)
+    # The picture's depth is along the axis, a ray's length is not.
+    expected = depth / math.cos(bearing)
+    most = math.inf if top <= 0 else AGREE * expected
+    hits = scan.range[(scan.range > expected / AGREE) & (scan.range < most)]
+    size = SIZES[detection.kind]
+    behind = (size.length + size.width) / 4
+    if len(hits):
+        return Measured(float(np.quantile(hits, 0.25)) + behind, bearing)
+    foot = bottom - spec.height / 2
+    ground = spec.mount * spec.focal / foot / math.cos(bearing) if foot > 0 else math.inf
+    if ground < GROUND and expected / AGREE < ground < most:
+        return Measured(ground + behind, bearing)
+    return Measured(math.nan, bearing)

@@ -1,0 +1,218 @@
+"""EdgeAgent: one robot's mind, as the paper has it: scan, approach, range, map, search on."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from symboslam.engine.slam.edge import EdgeMapper
+from symboslam.engine.slam.planar import between, compose
+from symboslam.sim_bridge.bridge.camera import Camera
+from symboslam.sim_bridge.bridge.detections import Detector
+from symboslam.sim_bridge.bridge.lidar import Lidar
+from symboslam.sim_bridge.bridge.odometry import Gps, WheelOdometry
+from symboslam.sim_bridge.bridge.ranging import expected_range, measure
+from symboslam.sim_bridge.bridge.robots import Robot
+from symboslam.sim_bridge.bridge.scene import Others, Scene
+from symboslam.sim_bridge.bridge.settings import BridgeSettings
+from symboslam.sim_bridge.mission.driver import command
+from symboslam.sim_bridge.mission.journal import Journal, Seen
+from symboslam.sim_bridge.mission.targets import Target, Targets
+from symboslam.sim_bridge.mission.trouble import BACK, Finding, Watch
+from symboslam.sim_bridge.worlds.sizes import SIZES
+
+Point = tuple[float, float]
+Pose = tuple[float, float, float]
+
+NEAR = 25.0
+"""Metres within which the lidar looks for what is in the way."""
+THIN = 4
+"""To drive, each so-manieth ray is enough."""
+STAND = 10.0
+"""Metres that a robot keeps from what it approaches, so that it stays wholly in frame."""
+REACH = 60.0
+"""Metres within which a target is approached."""
+
+
+class EdgeAgent:
+    """One robot with its sensors and its own map.
+
+    Args:
+        scene: where it is.
+        robot: drives.
+        camera: looks.
+        detector: finds things in pictures.
+        lidar: measures ranges.
+        odometry: tells where the robot believes to be.
+        gps: tells where it is; None for none.
+        mapper: its own map, which corrects where it believes to be.
+        position: class -> number of it in the mapper.
+        start: where it truly begins, which it knows.
+        settings: of robot and sensors.
+
+    Attributes:
+        name: of the robot.
+        journal: what it drove and saw.
+        targets: what it has seen of what stands still.
+        target: what it approaches.
+        bumps: how often it ran into something.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        robot: Robot,
+        camera: Camera,
+        detector: Detector,
+        lidar: Lidar,
+        odometry: WheelOdometry,
+        gps: Gps | None,
+        mapper: EdgeMapper,
+        position: Mapping[str, int],
+        start: Pose,
+        settings: BridgeSettings,
+    ) -> None:
+        self.name, self.scene, self.robot = robot.name, scene, robot
+        self._others = Others(scene)
+        self._camera, self._detector, self._lidar = camera, detector, lidar
+        self._odometry, self._gps, self.mapper = odometry, gps, mapper
+        self._position, self._settings, self._start = position, settings, start
+        self.journal = Journal(robot.name, start)
+        self.targets = Targets()
+        self.target: Target | None = None
+        self.watch = Watch()
+        self.bumps = 0
+        self._bumped = False
+        self._back = 0.0
+        self._anchor: tuple[Pose, Pose] = (start, (0.0, 0.0, 0.0))
+        self._kinds = [o.kind for o in scene.stock.objects]
+
+    @property
+    def pose(self) -> Pose:
+        """Where it believes to be, in the collective frame."""
+        estimate, odometry = self._anchor
+        x, y, heading = compose(estimate, between(odometry, self._odometry.pose)).tolist()
+        return x, y, heading
+
+    @property
+    def lost(self) -> bool:
+        """Whether it was given up."""
+        return self.watch.given_up
+
+    def sense(self, time: float, others: Mapping[str, Pose]) -> list[Seen]:
+        """Look around, and take over into its own map what is there (scan, range, insert).
+
+        Args:
+            time: seconds.
+            others: name -> true pose of the other robots, which can be run into.
+        """
+        true = self.robot.pose
+        self._log_odometry(time, true)
+        self.scene.follow([true[:2]])
+        self._others.show(others)
+        if self.lost:
+            return []
+        picture = self._camera.look(true)
+        if picture is None:
+            return []
+        kinds = {body: self._kinds[n] for body, n in self.scene.object_of.items()}
+        found = []
+        here = self.pose
+        for detection in self._detector.detect(picture, kinds):
+            measured = measure(detection, self._lidar, true, self._camera.spec)
+            if measured is None:
+                continue
+            ranged = math.isfinite(measured.range)
+            thing = ""
+            if detection.body is not None:
+                thing = self.scene.stock.objects[self.scene.object_of[detection.body]].id
+            if not SIZES[detection.kind].moves:
+                far = measured.range if ranged else expected_range(detection, self._camera.spec)
+                angle = here[2] + measured.bearing
+                x, y = here[0] + far * math.cos(angle), here[1] + far * math.sin(angle)
+                self.targets.see(detection.kind, x, y, far, ranged)
+            if not ranged:
+                continue
+            seen = Seen(
+                time, measured.range, measured.bearing, detection.kind, detection.confidence, thing
+            )
+            self.mapper.sighting(
+                time, seen.range, seen.bearing, self._position[seen.kind], seen.confidence
+            )
+            found.append(seen)
+        self.journal.seen += found
+        return found
+
+    def _log_odometry(self, time: float, true: Pose) -> None:
+        pose = self._odometry.pose
+        self.journal.odometry.append((time, pose))
+        self.journal.truth.append((time, true))
+        self.mapper.odometry(time, pose)
+        fix = None if self._gps is None else self._gps.fix(time, true)
+        if fix is not None and self._gps is not None:
+            self.journal.fixes.append((time, *fix))
+            self.mapper.fix(time, *fix, self._gps.spec.sigma)
+        self._anchor = (self.mapper.pose or self._start, self.mapper.key_odometry)
+
+    def choose(self, claimed: Sequence[Point], seconds: float) -> Target | None:
+        """The nearest target that is not mapped yet, if any; the other robots' are left to them."""
+        if self.target is not None:
+            self.target.spent += seconds
+        self.target = self.targets.nearest(self.pose[:2], REACH, claimed)
+        return self.target
+
+    def drive(self, goal: Point | None, seconds: float) -> None:
+        """Drive towards the target, or without one towards the goal, for some seconds."""
+        settings = self._settings
+        left, steps = seconds, 0
+        scan = None
+        while left > 1e-9:
+            step = min(settings.control, left)
+            left -= step
+            true = self.robot.pose
+            if self._back > 0:
+                self._back -= step
+                self._step(-0.3 * self.robot.top_speed, 0.8, step)
+                continue
+            if goal is None or self.lost:
+                self._step(0.0, 0.0, step)
+                continue
+            if steps % 2 == 0:
+                near = self.scene.solid.clearance(*true[:2]) < NEAR
+                scan = self._lidar.scan(true, THIN, NEAR) if near else None
+            steps += 1
+            x, y, heading = self.pose
+            to, stand = goal, 0.0
+            if self.target is not None:
+                to = (self.target.x, self.target.y)
+                stand = SIZES[self.target.kind].radius + STAND
+            wanted = math.remainder(math.atan2(to[1] - y, to[0] - x) - heading, math.tau)
+            distance = math.dist((x, y), to) - stand
+            speed, turn = command(scan, wanted, distance, self.robot.top_speed, settings.radius)
+            self._step(speed, turn, step)
+
+    def _step(self, speed: float, turn: float, seconds: float) -> None:
+        self.robot.drive(speed, turn, seconds)
+        self._odometry.move(self.robot.pose)
+        self.bumps += self.robot.bumped and not self._bumped
+        self._bumped = self.robot.bumped
+
+    def look_after(self, time: float, wants: bool) -> Finding | None:
+        """Notice a robot that tipped over or is stuck, and free it or give it up."""
+        finding = self.watch.check(time, self._odometry.pose[:2], wants, self.robot.tipped)
+        if finding is None:
+            return None
+        if finding.kind == "tipped":
+            self.robot.upright()
+        if finding.kind in ("tipped", "stuck"):
+            self._back = BACK
+        if self.target is not None:
+            self.target.spent = math.inf
+        return finding
+
+
+def things_seen(seen: Sequence[Seen]) -> set[str]:
+    """Ids of the objects that were truly ranged."""
+    return {one.thing for one in seen if one.thing and np.isfinite(one.range)}

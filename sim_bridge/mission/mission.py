@@ -1,0 +1,356 @@
+"""Mission: robots in a world from the first second to the last, at a fixed tick."""
+
+from __future__ import annotations
+
+import time as clock
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from symboslam.engine.slam.edge import EdgeMapper
+from symboslam.engine.slam.log import Mission as SlamMission
+from symboslam.engine.slam.log import Truth
+from symboslam.errors import InputError
+from symboslam.reasoning.knowledge import Knowledge
+from symboslam.sim_bridge.agents.classes import Classes
+from symboslam.sim_bridge.bridge.camera import Camera
+from symboslam.sim_bridge.bridge.detections import get_detector
+from symboslam.sim_bridge.bridge.lidar import Lidar
+from symboslam.sim_bridge.bridge.odometry import Gps, WheelOdometry, noise_of
+from symboslam.sim_bridge.bridge.ranging import SIGMA_BEARING, SIGMA_RANGE
+from symboslam.sim_bridge.bridge.robots import get_robot
+from symboslam.sim_bridge.bridge.scene import Others, Scene
+from symboslam.sim_bridge.bridge.settings import BridgeSettings
+from symboslam.sim_bridge.bridge.stock import Stock
+from symboslam.sim_bridge.mission.control_agent import ControlAgent, Search
+from symboslam.sim_bridge.mission.coverage import Swept, dispersion
+from symboslam.sim_bridge.mission.edge_agent import EdgeAgent, things_seen
+from symboslam.sim_bridge.mission.journal import Journal, Seen
+from symboslam.sim_bridge.mission.trouble import Finding
+from symboslam.sim_bridge.worlds.checks import free_starts
+from symboslam.sim_bridge.worlds.sizes import CLASSES
+from symboslam.sim_bridge.worlds.starts import with_starts
+from symboslam.sim_bridge.worlds.world import World
+
+Pose = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class MissionSettings:
+    """How a mission goes.
+
+    Attributes:
+        robots: how many.
+        kind: ``kinematic`` or ``husky``.
+        detector: ``seg`` or ``onnx``.
+        time_limit: simulated seconds.
+        seed: of all that is random.
+        reach: metres within which ground counts as looked at.
+        window: whether to show it.
+        bridge: robots and sensors.
+    """
+
+    robots: int = 3
+    kind: str = "kinematic"
+    detector: str = "seg"
+    time_limit: float = 2400.0
+    seed: int = 0
+    reach: float = 60.0
+    window: bool = False
+    bridge: BridgeSettings = field(default_factory=BridgeSettings)
+
+
+@dataclass(frozen=True)
+class Tick:
+    """How far a mission has come.
+
+    Attributes:
+        time: simulated seconds.
+        coverage: share of the ground that was swept.
+        formula: the paper's A'/A.
+        found: objects that were ranged.
+        objects: all of them.
+        dispersion: mean metres between two robots.
+        factor: simulated over real seconds.
+    """
+
+    time: float
+    coverage: float
+    formula: float
+    found: int
+    objects: int
+    dispersion: float
+    factor: float
+
+
+class Listener:
+    """Is told what happens in a mission; each method may be left out."""
+
+    def begin(self, team: Team) -> None:
+        """All robots stand at their starts."""
+
+    def rows(self, journal: Journal, seen: list[Seen]) -> None:
+        """The last row of a robot's odometry, and what it saw then."""
+
+    def tick(self, tick: Tick) -> None:
+        """A tick has passed."""
+
+    def event(self, time: float, robot: str, kind: str, text: str) -> None:
+        """Something happened that is worth a line."""
+
+
+@dataclass
+class Team:
+    """The robots of a mission and what they share.
+
+    Attributes:
+        world: with starts that are free.
+        agents: the robots.
+        scenes: one for each robot.
+        classes: numbers of classes for map building.
+        settings: of the mission.
+        notes: what is odd, one sentence each.
+    """
+
+    world: World
+    agents: list[EdgeAgent]
+    scenes: list[Scene]
+    classes: Classes
+    settings: MissionSettings
+    notes: list[str]
+
+    def close(self) -> None:
+        """Leave all physics clients."""
+        for scene in self.scenes:
+            scene.close()
+
+    def slam_mission(self) -> SlamMission:
+        """All logs, with the truth for those who measure."""
+        position = {name: n for n, name in enumerate(self.classes.names)}
+        bridge = self.settings.bridge
+        label = _labels(position)
+        sigma_fix = bridge.gps.sigma if bridge.gps else 3.0
+        journals = [agent.journal for agent in self.agents]
+        logs = [
+            j.log(label, noise_of(bridge.odometry), (SIGMA_RANGE, SIGMA_BEARING), sigma_fix)
+            for j in journals
+        ]
+        truth = Truth(
+            {o.id: (o.x, o.y) for o in self.world.objects},
+            {j.name: np.array([(t, *p) for t, p in j.truth], float) for j in journals},
+            {o.id: self.classes.names[label[o.kind]] for o in self.world.objects},
+        )
+        identity = {}
+        for j in journals:
+            column = np.empty(len(j.seen), object)
+            column[:] = [s.thing for s in j.seen]
+            identity[j.name] = column
+        return SlamMission(
+            tuple(logs), self.classes.names, self.classes.dynamic, self.classes.similarity,
+            identity, truth,
+        )  # fmt: skip
+
+
+def assemble(world: World, settings: MissionSettings, knowledge: Knowledge) -> Team:
+    """Robots at their starts, each with its scene, sensors and mind.
+
+    Args:
+        world: starts inside objects are moved out of them.
+        settings: of the mission.
+        knowledge: which classes there are.
+
+    Raises:
+        InputError: fewer starts than robots, or a robot or detector that does not exist.
+        MissingExtraError: pybullet is not installed.
+    """
+    world, notes = free_starts(with_starts(world))
+    if not 1 <= settings.robots <= len(world.starts):
+        raise InputError(
+            f"{settings.robots} robots: {world.name} has starts for 1 to {len(world.starts)}"
+        )
+    classes = Classes.of(knowledge)
+    label = _labels({name: n for n, name in enumerate(classes.names)})
+    stock, bridge = Stock(world), settings.bridge
+    team = Team(world, [], [], classes, settings, list(notes))
+    try:
+        for n in range(settings.robots):
+            seeds = np.random.SeedSequence([settings.seed, n]).spawn(5)
+            rngs = [np.random.default_rng(seed) for seed in seeds]
+            scene = Scene(stock)
+            team.scenes.append(scene)
+            at = world.starts[n]
+            start = (at.x, at.y, at.heading)
+            scene.follow([start[:2]])
+            robot = get_robot(settings.kind, f"robot {n + 1}", scene, start, bridge)
+            start = robot.pose
+            least = bridge.detector.least_height / bridge.camera.focal
+            detector = get_detector(settings.detector, bridge.detector, CLASSES, rngs[0])
+            agent = EdgeAgent(
+                scene,
+                robot,
+                Camera(scene, bridge.camera, least),
+                detector,
+                Lidar(scene, bridge.lidar, rngs[1], body=bridge.radius),
+                WheelOdometry(start, bridge.odometry, rngs[2]),
+                Gps(bridge.gps, rngs[3]) if bridge.gps else None,
+                EdgeMapper(
+                    robot.name, classes.names, classes.dynamic, start=start,
+                    noise=noise_of(bridge.odometry), sigma_range=SIGMA_RANGE,
+                    sigma_bearing=SIGMA_BEARING,
+                ),
+                label,
+                start,
+                bridge,
+            )  # fmt: skip
+            team.agents.append(agent)
+    except BaseException:
+        team.close()
+        raise
+    return team
+
+
+def fly(
+    team: Team, search: Search, listener: Listener | None = None
+) -> Outcome:
+    """Run a mission to its end: all found, out of time, nobody left to drive, or ctrl-C.
+
+    The same settings, world and search give the same mission, whatever the clock says.
+    """
+    return _Flight(team, search, listener or Listener()).run()
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a mission ended.
+
+    Attributes:
+        last: the last tick.
+        ended: ``all found``, ``time``, ``all given up`` or ``interrupted``.
+        found: id of an object -> seconds when it was ranged first.
+        ticks: all of them, one a simulated second.
+        seconds: of real time.
+    """
+
+    last: Tick
+    ended: str
+    found: Mapping[str, float]
+    ticks: tuple[Tick, ...]
+    seconds: float
+
+
+class _Flight:
+    """The loop, step by step."""
+
+    def __init__(self, team: Team, search: Search, listener: Listener) -> None:
+        self._team, self._listener = team, listener
+        s = team.settings
+        self._control = ControlAgent(team.agents, search)
+        self._swept = Swept(
+            team.world.extent, s.reach, s.bridge.camera.fov, s.robots, s.bridge.speed
+        )
+        self._found: dict[str, float] = {}
+        self._ticks: list[Tick] = []
+        self._told = [0] * len(team.agents)
+        self._bumps = [0] * len(team.agents)
+        self._viewer: tuple[Scene, Others] | None = None
+        if s.window:
+            scene = Scene(team.agents[0].scene.stock, window=True)
+            team.scenes.append(scene)
+            self._viewer = scene, Others(scene)
+        self._begun = clock.perf_counter()
+
+    def run(self) -> Outcome:
+        team, settings = self._team, self._team.settings
+        step = 1 / settings.bridge.camera.rate
+        number, ended = 0, "time"
+        self._listener.begin(team)
+        for note in team.notes:
+            self._listener.event(0.0, "", "note", note)
+        tick = self._tick(0.0)
+        try:
+            while True:
+                time = number * step
+                tick = self._sense(time)
+                if len(self._found) == len(team.world.objects):
+                    ended = "all found"
+                    break
+                if time >= settings.time_limit - 1e-9:
+                    break
+                if all(agent.lost for agent in team.agents):
+                    ended = "all given up"
+                    break
+                self._act(time, step)
+                number += 1
+        except KeyboardInterrupt:
+            ended = "interrupted"
+        seconds = clock.perf_counter() - self._begun
+        self._listener.event(tick.time, "", "end", ended)
+        return Outcome(tick, ended, dict(self._found), tuple(self._ticks), seconds)
+
+    def _sense(self, time: float) -> Tick:
+        """Every robot looks around and maps."""
+        poses = {agent.name: agent.robot.pose for agent in self._team.agents}
+        for n, agent in enumerate(self._team.agents):
+            others = {name: pose for name, pose in poses.items() if name != agent.name}
+            seen = agent.sense(time, others)
+            for thing in sorted(things_seen(seen)):
+                self._found.setdefault(thing, time)
+            self._listener.rows(agent.journal, seen)
+            for note in agent.scene.notes[self._told[n] :]:
+                self._team.notes.append(note)
+                self._listener.event(time, agent.name, "mesh", note)
+            self._told[n] = len(agent.scene.notes)
+        self._swept.see(poses.values())
+        tick = self._tick(time)
+        if abs(time - round(time)) < 1e-9:
+            self._ticks.append(tick)
+        self._listener.tick(tick)
+        if self._viewer is not None:
+            self._viewer[0].follow([p[:2] for p in poses.values()])
+            self._viewer[1].show(poses)
+        return tick
+
+    def _act(self, time: float, step: float) -> None:
+        """The control agent gives goals, every robot drives."""
+        goals = self._control.assign(time, step)
+        for n, agent in enumerate(self._team.agents):
+            goal = goals[agent.name]
+            agent.drive(goal, step)
+            if agent.bumps > self._bumps[n]:
+                self._bumps[n] = agent.bumps
+                self._listener.event(time, agent.name, "bump", "ran into something")
+            finding = agent.look_after(time, goal is not None)
+            if finding is not None:
+                self._report(time, agent, finding)
+
+    def _report(self, time: float, agent: EdgeAgent, finding: Finding) -> None:
+        self._listener.event(time, agent.name, finding.kind, finding.text)
+        if finding.kind == "given up":
+            self._team.notes.append(f"{agent.name}: {finding.text} after {time:g} s")
+
+    def _tick(self, time: float) -> Tick:
+        real = clock.perf_counter() - self._begun
+        return Tick(
+            time,
+            self._swept.share,
+            self._swept.formula(time),
+            len(self._found),
+            len(self._team.world.objects),
+            dispersion(agent.robot.pose for agent in self._team.agents),
+            time / max(real, 1e-9),
+        )
+
+
+def _labels(position: Mapping[str, int]) -> dict[str, int]:
+    """Detector class -> number of the feature of the ontology."""
+    by_case = {name.casefold(): n for name, n in position.items()}
+    return {
+        name: by_case.get(name.casefold(), by_case.get(f"unspecified{name.casefold()}", 0))
+        for name in CLASSES
+    }
+
+
+def with_time(settings: MissionSettings, minutes: float) -> MissionSettings:
+    """The settings with another time limit."""
+    return replace(settings, time_limit=60 * minutes)
