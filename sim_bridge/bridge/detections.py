@@ -78,9 +78,7 @@ class SegDetector(Detector):
             kind = kinds[body]
             if confused < spec.confusion:
                 rest = [c for c in self._classes if c != kind]
-                found.append(
-                    Detection(box, rest[int(other * len(rest))], 0.3 + 0.5 * sure, body)
-                )
+                found.append(Detection(box, rest[int(other * len(rest))], 0.3 + 0.5 * sure, body))
             else:
                 found.append(Detection(box, kind, 0.7 + 0.29 * sure, body))
         for _ in range(int(rng.poisson(spec.false_positives))):
@@ -110,9 +108,7 @@ def boxes_of(
     return [(b, (x0, y0, x1, y1), n) for b, x0, y0, x1, y1, n in table if b in kinds]
 
 
-def _seg(
-    spec: DetectorSpec, classes: tuple[str, ...], rng: np.random.Generator
-) -> Detector:
+def _seg(spec: DetectorSpec, classes: tuple[str, ...], rng: np.random.Generator) -> Detector:
     return SegDetector(spec, classes, rng)
 
 

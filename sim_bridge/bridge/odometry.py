@@ -71,7 +71,7 @@ class Gps:
         self._next = 0.0
 
     def fix(self, time: float, true: Pose) -> tuple[float, float] | None:
-        """x and y in metres if a fix is due at a time in seconds, else None."""
+        """X and y in metres if a fix is due at a time in seconds, else None."""
         if time + 1e-9 < self._next:
             return None
         self._next += 1 / self.spec.rate

@@ -85,9 +85,7 @@ def measure(
     middle = (left + right) / 2
     bearing = bearing_of(middle, spec)
     half = MIDDLE * (right - left) / 2
-    scan = lidar.between(
-        pose, bearing_of(middle + half, spec), bearing_of(middle - half, spec)
-    )
+    scan = lidar.between(pose, bearing_of(middle + half, spec), bearing_of(middle - half, spec))
     depth = expected_range(detection, spec)
     # The picture's depth is along the axis, a ray's length is not.
     expected = depth / math.cos(bearing)

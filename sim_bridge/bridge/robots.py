@@ -168,8 +168,7 @@ class Husky(Robot):
         for _ in range(max(1, round(seconds / self.STEP))):
             bullet.stepSimulation(physicsClientId=client)
         touched = {
-            contact[2]
-            for contact in bullet.getContactPoints(self._body, physicsClientId=client)
+            contact[2] for contact in bullet.getContactPoints(self._body, physicsClientId=client)
         }
         self.bumped = bool(touched & self._scene.solid.numbers)
 

@@ -76,7 +76,7 @@ class EdgeAgent:
     ) -> None:
         self.name, self.scene, self.robot = robot.name, scene, robot
         self._others = Others(scene)
-        self._camera, self._detector, self._lidar = camera, detector, lidar
+        self.camera, self._detector, self._lidar = camera, detector, lidar
         self._odometry, self._gps, self.mapper = odometry, gps, mapper
         self._position, self._settings, self._start = position, settings, start
         self.journal = Journal(robot.name, start)
@@ -114,14 +114,14 @@ class EdgeAgent:
         self._others.show(others)
         if self.lost:
             return []
-        picture = self._camera.look(true)
+        picture = self.camera.look(true)
         if picture is None:
             return []
         kinds = {body: self._kinds[n] for body, n in self.scene.object_of.items()}
         found = []
         here = self.pose
         for detection in self._detector.detect(picture, kinds):
-            measured = measure(detection, self._lidar, true, self._camera.spec)
+            measured = measure(detection, self._lidar, true, self.camera.spec)
             if measured is None:
                 continue
             ranged = math.isfinite(measured.range)
@@ -129,7 +129,7 @@ class EdgeAgent:
             if detection.body is not None:
                 thing = self.scene.stock.objects[self.scene.object_of[detection.body]].id
             if not SIZES[detection.kind].moves:
-                far = measured.range if ranged else expected_range(detection, self._camera.spec)
+                far = measured.range if ranged else expected_range(detection, self.camera.spec)
                 angle = here[2] + measured.bearing
                 x, y = here[0] + far * math.cos(angle), here[1] + far * math.sin(angle)
                 self.targets.see(detection.kind, x, y, far, ranged)

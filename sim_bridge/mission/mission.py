@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time as clock
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -211,13 +211,22 @@ def assemble(world: World, settings: MissionSettings, knowledge: Knowledge) -> T
 
 
 def fly(
-    team: Team, search: Search, listener: Listener | None = None
+    team: Team,
+    search: Search,
+    listener: Listener | None = None,
+    progress: Callable[[Tick], None] | None = None,
 ) -> Outcome:
     """Run a mission to its end: all found, out of time, nobody left to drive, or ctrl-C.
 
     The same settings, world and search give the same mission, whatever the clock says.
+
+    Args:
+        team: robots at their starts.
+        search: the strategy.
+        listener: is told all that happens, to record it.
+        progress: is called after each tick.
     """
-    return _Flight(team, search, listener or Listener()).run()
+    return _Flight(team, search, listener or Listener(), progress or (lambda tick: None)).run()
 
 
 @dataclass(frozen=True)
@@ -242,8 +251,10 @@ class Outcome:
 class _Flight:
     """The loop, step by step."""
 
-    def __init__(self, team: Team, search: Search, listener: Listener) -> None:
-        self._team, self._listener = team, listener
+    def __init__(
+        self, team: Team, search: Search, listener: Listener, progress: Callable[[Tick], None]
+    ) -> None:
+        self._team, self._listener, self._progress = team, listener, progress
         s = team.settings
         self._control = ControlAgent(team.agents, search)
         self._swept = Swept(
@@ -306,6 +317,7 @@ class _Flight:
         if abs(time - round(time)) < 1e-9:
             self._ticks.append(tick)
         self._listener.tick(tick)
+        self._progress(tick)
         if self._viewer is not None:
             self._viewer[0].follow([p[:2] for p in poses.values()])
             self._viewer[1].show(poses)
@@ -349,8 +361,3 @@ def _labels(position: Mapping[str, int]) -> dict[str, int]:
         name: by_case.get(name.casefold(), by_case.get(f"unspecified{name.casefold()}", 0))
         for name in CLASSES
     }
-
-
-def with_time(settings: MissionSettings, minutes: float) -> MissionSettings:
-    """The settings with another time limit."""
-    return replace(settings, time_limit=60 * minutes)

@@ -64,9 +64,7 @@ class Watch:
             return None
         return self._attempt(time, place, "stuck", f"stuck for {STILL:g} s; it backs off")
 
-    def _attempt(
-        self, time: float, place: tuple[float, float], kind: str, text: str
-    ) -> Finding:
+    def _attempt(self, time: float, place: tuple[float, float], kind: str, text: str) -> Finding:
         self._since, self._place = time, place
         self._trouble = self._trouble or place
         self.tries += 1

@@ -7,6 +7,8 @@ Why: docs/decisions/0024-object-meshes.md
 
 from __future__ import annotations
 
+import os
+import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -38,10 +40,28 @@ def import_pybullet() -> Any:
         MissingExtraError: it is not installed.
     """
     try:
-        import pybullet
+        with _hushed():
+            import pybullet
     except ImportError as error:
         raise MissingExtraError("pybullet", "sim") from error
     return pybullet
+
+
+@contextmanager
+def _hushed() -> Iterator[None]:
+    """Standard error goes nowhere: pybullet prints when it was built."""
+    if "pybullet" in sys.modules:
+        yield
+        return
+    sys.stderr.flush()
+    kept, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
+    try:
+        os.dup2(nowhere, 2)
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
+        os.close(nowhere)
 
 
 def palette() -> NDArray[np.uint8]:
