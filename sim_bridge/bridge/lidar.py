@@ -49,7 +49,9 @@ class Lidar:
         self._scene, self.spec, self._rng, self._noise = scene, spec, rng, noise
         self._body = body
         rays = round(spec.span / spec.step) + 1
-        self._bearing = (np.arange(rays) - (rays - 1) / 2) * spec.step
+        self._bearing: NDArray[np.float64] = np.asarray(
+            (np.arange(rays, dtype=float) - (rays - 1) / 2) * spec.step
+        )
 
     def scan(self, pose: Pose, every: int = 1, reach: float | None = None) -> Scan:
         """Ranges from a pose.

@@ -15,6 +15,7 @@ import numpy as np
 from symboslam.sim_bridge.bridge.detections import Box, Detection
 from symboslam.sim_bridge.bridge.lidar import Lidar
 from symboslam.sim_bridge.bridge.settings import CameraSpec
+from symboslam.sim_bridge.objects.bullet import ROUND
 from symboslam.sim_bridge.worlds.sizes import SIZES
 
 SIGMA_RANGE = 1.5
@@ -23,6 +24,10 @@ SIGMA_BEARING = 0.02
 """Radians: a third of a degree for the points of the picture, more for what is half hidden."""
 AGREE = 2.0
 """A ray may measure so many times more or less than the height of the box tells."""
+FOOT = 0.8
+"""Share by which a range may differ from where the foot of the box is."""
+BOX_DEPTH, ROUND_DEPTH = 0.29, 0.25
+"""Of length and width together: from the front of a thing to its middle, on the average."""
 MIDDLE = 0.6
 """Share of a box's width, around its middle, in which rays count."""
 GROUND = 30.0
@@ -81,22 +86,46 @@ def measure(
     """
     if not whole(detection.box, spec):
         return None
-    left, top, right, bottom = detection.box
+    left, _, right, _ = detection.box
     middle = (left + right) / 2
     bearing = bearing_of(middle, spec)
     half = MIDDLE * (right - left) / 2
     scan = lidar.between(pose, bearing_of(middle + half, spec), bearing_of(middle - half, spec))
-    depth = expected_range(detection, spec)
-    # The picture's depth is along the axis, a ray's length is not.
-    expected = depth / math.cos(bearing)
-    most = math.inf if top <= 0 else AGREE * expected
-    hits = scan.range[(scan.range > expected / AGREE) & (scan.range < most)]
-    size = SIZES[detection.kind]
-    behind = (size.length + size.width) / 4
+    low, high = (edge / math.cos(bearing) for edge in front_of(detection, spec))
+    hits = scan.range[(scan.range > low) & (scan.range < high)]
+    behind = half_depth(detection.kind)
     if len(hits):
         return Measured(float(np.quantile(hits, 0.25)) + behind, bearing)
-    foot = bottom - spec.height / 2
-    ground = spec.mount * spec.focal / foot / math.cos(bearing) if foot > 0 else math.inf
-    if ground < GROUND and expected / AGREE < ground < most:
-        return Measured(ground + behind, bearing)
+    near, far = (ground / math.cos(bearing) for ground in foot_of(detection, spec))
+    if far < GROUND and low <= (near + far) / 2 <= high:
+        return Measured((near + far) / 2 + behind, bearing)
     return Measured(math.nan, bearing)
+
+
+def half_depth(kind: str) -> float:
+    """Metres from the front of a thing of nominal size to its middle, over all sides."""
+    size = SIZES[kind]
+    return (ROUND_DEPTH if kind in ROUND else BOX_DEPTH) * (size.length + size.width)
+
+
+def foot_of(detection: Detection, spec: CameraSpec) -> tuple[float, float]:
+    """Least and most metres, along the camera's axis, to where the box stands on the ground.
+
+    It is good to a point of the picture. If something hides the foot, it is too far.
+    """
+    foot = detection.box[3] - spec.height / 2
+    near = spec.mount * spec.focal / (foot + 1) if foot > -1 else math.inf
+    far = spec.mount * spec.focal / (foot - 1) if foot > 1 else math.inf
+    return near, far
+
+
+def front_of(detection: Detection, spec: CameraSpec) -> tuple[float, float]:
+    """Least and most metres, along the camera's axis, at which a thing in the box can begin.
+
+    Its height says so roughly, its foot better. Rays outside hit something before or behind it.
+    """
+    expected = expected_range(detection, spec)
+    near, far = foot_of(detection, spec)
+    low = max(expected / AGREE, FOOT * near if math.isfinite(near) else 0.0)
+    high = math.inf if detection.box[1] <= 0 else AGREE * expected
+    return low, min(high, far / FOOT)

@@ -45,7 +45,10 @@ def heading_for(scan: Scan | None, wanted: float, radius: float, look: float) ->
     tried = np.append(scan.bearing, wanted)
     closed = (np.abs(tried[:, None] - bearing[None, :]) < wide[None, :]).any(1)
     if closed.all():
-        return math.copysign(math.pi / 2, wanted if wanted else 1.0), False
+        # Nothing is wide enough: towards the most room.
+        room = np.minimum(scan.range, look)
+        best = np.lexsort((np.abs(scan.bearing - wanted), -room))[0]
+        return float(scan.bearing[best]), bool(room[best] > 2 * radius)
     open_ = tried[~closed]
     best = open_[np.abs(open_ - wanted).argmin()]
     return float(best), True

@@ -20,7 +20,7 @@ from symboslam.sim_bridge.bridge.settings import BridgeSettings
 from symboslam.sim_bridge.mission.driver import command
 from symboslam.sim_bridge.mission.journal import Journal, Seen
 from symboslam.sim_bridge.mission.targets import Target, Targets
-from symboslam.sim_bridge.mission.trouble import BACK, Finding, Watch
+from symboslam.sim_bridge.mission.trouble import AROUND, BACK, Finding, Watch
 from symboslam.sim_bridge.worlds.sizes import SIZES
 
 Point = tuple[float, float]
@@ -85,7 +85,8 @@ class EdgeAgent:
         self.watch = Watch()
         self.bumps = 0
         self._bumped = False
-        self._back = 0.0
+        self._back = self._detour = 0.0
+        self._side = 1
         self._anchor: tuple[Pose, Pose] = (start, (0.0, 0.0, 0.0))
         self._kinds = [o.kind for o in scene.stock.objects]
 
@@ -159,7 +160,9 @@ class EdgeAgent:
     def choose(self, claimed: Sequence[Point], seconds: float) -> Target | None:
         """The nearest target that is not mapped yet, if any; the other robots' are left to them."""
         if self.target is not None:
-            self.target.spent += seconds
+            gap = math.dist(self.pose[:2], (self.target.x, self.target.y))
+            close = gap < SIZES[self.target.kind].radius + STAND + 2
+            self.target.spent += 3 * seconds if close else seconds
         self.target = self.targets.nearest(self.pose[:2], REACH, claimed)
         return self.target
 
@@ -189,6 +192,9 @@ class EdgeAgent:
                 to = (self.target.x, self.target.y)
                 stand = SIZES[self.target.kind].radius + STAND
             wanted = math.remainder(math.atan2(to[1] - y, to[0] - x) - heading, math.tau)
+            if self._detour > 0:
+                self._detour -= step
+                wanted = math.remainder(wanted + self._side * math.pi / 2, math.tau)
             distance = math.dist((x, y), to) - stand
             speed, turn = command(scan, wanted, distance, self.robot.top_speed, settings.radius)
             self._step(speed, turn, step)
@@ -207,7 +213,7 @@ class EdgeAgent:
         if finding.kind == "tipped":
             self.robot.upright()
         if finding.kind in ("tipped", "stuck"):
-            self._back = BACK
+            self._back, self._detour, self._side = BACK, AROUND, -self._side
         if self.target is not None:
             self.target.spent = math.inf
         return finding

@@ -22,8 +22,8 @@ class Waypoints:
         rng: draws the places.
     """
 
-    CLOSE = 15.0
-    LONGEST = 180.0
+    CLOSE = 25.0
+    LONGEST = 150.0
 
     def __init__(self, extent: Extent, rng: np.random.Generator) -> None:
         self._extent, self._rng = extent, rng

@@ -18,7 +18,7 @@ SAME = 4.0
 """Metres, and a tenth of the range, within which a sighting is of a thing seen before."""
 ENOUGH = 2
 """A thing that was ranged so often is mapped."""
-PATIENCE = 10.0
+PATIENCE = 7.0
 """Seconds of approach after which a target is given up."""
 CLAIM = 12.0
 """Metres around another robot's target within which nothing is approached."""

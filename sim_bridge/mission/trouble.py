@@ -11,6 +11,8 @@ SOMEWHERE = 1.0
 """Metres that are somewhere."""
 BACK = 1.5
 """Seconds of backing off."""
+AROUND = 5.0
+"""Seconds of driving past the goal's side after that, each time the other side."""
 TRIES = 5
 """Attempts in one place, after which a robot is given up."""
 AWAY = 5.0
