@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 from symboslam.errors import InputError
 from symboslam.sim_bridge.bridge.scene import Scene
 from symboslam.sim_bridge.bridge.settings import BridgeSettings
+from symboslam.sim_bridge.objects.bullet import hushed
 
 Pose = tuple[float, float, float]
 
@@ -115,7 +116,7 @@ class Husky(Robot):
     TRACK = 0.55
     FASTEST = 2.0
     STEP = 1 / 240
-    SKID = 1.8  # wheels that skid turn less than their speeds say
+    SKID = 3.5  # wheels that skid turn less than their speeds say
 
     def __init__(self, name: str, scene: Scene, start: Pose, settings: BridgeSettings) -> None:
         import pybullet_data
@@ -126,12 +127,13 @@ class Husky(Robot):
         self.bumped = False
         bullet, client = scene.bullet, scene.client
         x, y, heading = start
-        self._body: int = bullet.loadURDF(
-            f"{pybullet_data.getDataPath()}/husky/husky.urdf",
-            (x, y, 0.15),
-            bullet.getQuaternionFromEuler((0, 0, heading)),
-            physicsClientId=client,
-        )
+        with hushed():
+            self._body: int = bullet.loadURDF(
+                f"{pybullet_data.getDataPath()}/husky/husky.urdf",
+                (x, y, 0.15),
+                bullet.getQuaternionFromEuler((0, 0, heading)),
+                physicsClientId=client,
+            )
         self._wheels: dict[str, list[int]] = {"left": [], "right": []}
         for joint in range(bullet.getNumJoints(self._body, physicsClientId=client)):
             label = bullet.getJointInfo(self._body, joint, physicsClientId=client)[1].decode()

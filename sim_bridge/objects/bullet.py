@@ -39,8 +39,11 @@ def import_pybullet() -> Any:
     Raises:
         MissingExtraError: it is not installed.
     """
+    known = sys.modules.get("pybullet")
+    if known is not None:
+        return known
     try:
-        with _hushed():
+        with hushed():
             import pybullet
     except ImportError as error:
         raise MissingExtraError("pybullet", "sim") from error
@@ -48,19 +51,24 @@ def import_pybullet() -> Any:
 
 
 @contextmanager
-def _hushed() -> Iterator[None]:
-    """Standard error goes nowhere: pybullet prints when it was built."""
-    if "pybullet" in sys.modules:
-        yield
-        return
+def hushed() -> Iterator[None]:
+    """Nothing is printed: pybullet tells when it was built, and what it misses in URDF files."""
+    import ctypes
+
+    sys.stdout.flush()
     sys.stderr.flush()
-    kept, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
+    libc = ctypes.CDLL(None)
+    libc.fflush(None)
+    kept, nowhere = [os.dup(1), os.dup(2)], os.open(os.devnull, os.O_WRONLY)
     try:
+        os.dup2(nowhere, 1)
         os.dup2(nowhere, 2)
         yield
     finally:
-        os.dup2(kept, 2)
-        os.close(kept)
+        libc.fflush(None)
+        for number, old in zip((1, 2), kept, strict=True):
+            os.dup2(old, number)
+            os.close(old)
         os.close(nowhere)
 
 
