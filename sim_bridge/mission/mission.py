@@ -239,6 +239,7 @@ class Outcome:
         found: id of an object -> seconds when it was ranged first.
         ticks: all of them, one a simulated second.
         seconds: of real time.
+        processor: seconds of it in which this process was on a processor.
     """
 
     last: Tick
@@ -246,6 +247,7 @@ class Outcome:
     found: Mapping[str, float]
     ticks: tuple[Tick, ...]
     seconds: float
+    processor: float
 
 
 class _Flight:
@@ -269,7 +271,7 @@ class _Flight:
             scene = Scene(team.agents[0].scene.stock, window=True)
             team.scenes.append(scene)
             self._viewer = scene, Others(scene)
-        self._begun = clock.perf_counter()
+        self._begun, self._used = clock.perf_counter(), clock.process_time()
 
     def run(self) -> Outcome:
         team, settings = self._team, self._team.settings
@@ -296,8 +298,9 @@ class _Flight:
         except KeyboardInterrupt:
             ended = "interrupted"
         seconds = clock.perf_counter() - self._begun
+        used = clock.process_time() - self._used
         self._listener.event(tick.time, "", "end", ended)
-        return Outcome(tick, ended, dict(self._found), tuple(self._ticks), seconds)
+        return Outcome(tick, ended, dict(self._found), tuple(self._ticks), seconds, used)
 
     def _sense(self, time: float) -> Tick:
         """Every robot looks around and maps."""

@@ -186,6 +186,7 @@ def mission_figures(team: Team, outcome: Outcome) -> dict[str, Any]:
         "ended": outcome.ended,
         "time_s": last.time,
         "wall_s": round(outcome.seconds, 3),
+        "processor_s": round(outcome.processor, 3),
         "real_time_factor": last.time / max(outcome.seconds, 1e-9),
         "coverage": last.coverage,
         "coverage_formula": last.formula,

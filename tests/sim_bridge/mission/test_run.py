@@ -24,7 +24,7 @@ from symboslam.sim_bridge.worlds.world_file import read_world, write_world
 pytest.importorskip("pybullet", reason="pybullet is not installed: pip install 'symboslam[sim]'")
 pytest.importorskip("gtsam", reason="gtsam is not installed: pip install 'symboslam[slam]'")
 
-SHORT = ("--time-limit", "0.5", "--robots", "2")
+SHORT = ("--time-limit", "0.3", "--robots", "2")
 
 
 def run(*arguments: object) -> str:
@@ -61,7 +61,7 @@ def yard(path: Path, **more: object) -> Path:
         "objects": [
             {"id": "house", "class": "House", "x": 60, "y": 60},
             {"id": "tree", "class": "Tree", "x": 90, "y": 30},
-            {"id": "cat", "class": "Cat", "x": 30, "y": 95},
+            {"id": "bus", "class": "Bus", "x": 30, "y": 95},
         ],
         "starts": [{"x": 20, "y": 20, "heading": 0.8}],
     }
@@ -116,7 +116,7 @@ def test_the_same_seed_gives_the_same_run(tmp_path: Path) -> None:
     run("demo", *SHORT, "--record", other, "--gps")
     run("demo", *SHORT, "--record", third, "--gps", "--seed", 1)
     assert contents(one) == contents(other)
-    assert (one / "fixes.csv").read_text().count("\n") > 60
+    assert (one / "fixes.csv").read_text().count("\n") > 30
     assert (one / "detections.csv").read_bytes() != (third / "detections.csv").read_bytes()
 
 
@@ -144,7 +144,10 @@ def test_interrupted_records_can_be_read(tmp_path: Path) -> None:
 
 def test_the_paper_s_ways_to_map(tmp_path: Path) -> None:
     for slam in ("paper", "oracle"):
-        metrics = json.loads(run("demo", *SHORT, "--slam", slam, "--json"))
+        world = yard(tmp_path / "w.json")
+        metrics = json.loads(
+            run(world, "--robots", 1, "--time-limit", 0.2, "--slam", slam, "--json")
+        )
         assert metrics["slam"]["method"] == slam
         assert metrics["slam"]["landmarks_mapped"] > 0
 
@@ -156,7 +159,8 @@ def test_a_robot_that_starts_in_a_house_is_moved_out(tmp_path: Path) -> None:
 
 
 def test_all_is_found_and_the_mission_ends(tmp_path: Path) -> None:
-    metrics = json.loads(run(yard(tmp_path / "w.json"), "--robots", 1, "--json"))
+    world = yard(tmp_path / "w.json")
+    metrics = json.loads(run(world, "--robots", 1, "--time-limit", 10, "--json"))
     assert metrics["ended"] == "all found"
     assert metrics["time_all_found_s"] == metrics["time_s"]
     assert metrics["map"]["grid"]["all"]["accuracy"] > 0.3
