@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -132,15 +133,15 @@ class Run:
         self._map.follow(last)
         return self._map
 
-    def mapped_again(self, start: Pose, known: Sequence[Known]) -> EdgeMap:
-        """The run's map made anew, with landmarks of others to go by."""
+    def mapped_again(self, start: Pose, known: Sequence[Known], certainty: float) -> EdgeMap:
+        """The run's map made anew, with landmarks of others and a certainty to go by."""
         edge = EdgeMap(
             self.graph,
             ClassBeliefs(self._similarity),
             self._dynamic,
             start,
             self.start_sigma if self.start else LOOSE,
-            self.settings,
+            replace(self.settings, certainty=certainty),
             known,
         )
         edge.follow(last=True)
