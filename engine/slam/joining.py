@@ -13,7 +13,8 @@ from itertools import count
 from symboslam.engine.slam.association import Association
 from symboslam.engine.slam.beliefs import ClassBeliefs
 from symboslam.engine.slam.consistency import Doubt, doubts, vagueness
-from symboslam.engine.slam.edge_map import EdgeMap, Known
+from symboslam.engine.slam.edge_landmarks import Known
+from symboslam.engine.slam.edge_map import EdgeMap
 from symboslam.engine.slam.joint import JointGraph, Member
 from symboslam.engine.slam.log import Floats, Pose
 from symboslam.engine.slam.meetings import find_meetings, seen_robots

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symboslam.engine.slam.beliefs import ClassBeliefs
-from symboslam.engine.slam.edge_map import EdgeMap, Known
+from symboslam.engine.slam.edge_landmarks import Known
+from symboslam.engine.slam.edge_map import EdgeMap
 from symboslam.engine.slam.increment import EdgeIncrement
 from symboslam.engine.slam.joint import Member, Piece
 from symboslam.engine.slam.log import ROBOT, Closures, Floats, Pose

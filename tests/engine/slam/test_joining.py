@@ -8,13 +8,16 @@ import numpy as np
 import pytest
 
 from symboslam.engine.slam import joining
-from symboslam.engine.slam.edge_map import EdgeMap, Known
+from symboslam.engine.slam.edge_landmarks import Known
+from symboslam.engine.slam.edge_map import EdgeMap
 from symboslam.engine.slam.estimate import estimate
 from symboslam.engine.slam.log import Mission, Pose
 from symboslam.engine.slam.odometry import pose_at
 from symboslam.engine.slam.run import Run
 from symboslam.engine.slam.simulate import World, simulate
 from symboslam.engine.slam.slam_map import SlamMap
+
+pytestmark = pytest.mark.proof
 
 ROOM = World(
     robots=3,
