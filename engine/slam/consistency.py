@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from symboslam.engine.slam.edge_map import EdgeMap
@@ -12,7 +14,7 @@ from symboslam.engine.slam.planar import between, wrap
 
 MISFITS = 0.15
 """Share of a robot's sightings beyond four standard deviations, from which it is doubted."""
-UNMET = 0.3
+UNMET = 0.2
 """Share of robots seen that are where no robot is, from which a robot is doubted."""
 LOST = 0.15
 """Share of a robot's sightings that are of nothing seen again, from which it is doubted."""
@@ -25,8 +27,21 @@ BENT = 12.0
 """Mean squared residual of odometry, in standard deviations, from which a robot is doubted."""
 
 
-def doubts(graph: JointGraph, edges: list[EdgeMap]) -> list[list[str]]:
-    """For each robot why the map should not be trusted, one sentence each.
+@dataclass(frozen=True)
+class Doubt:
+    """Why a robot's part of a map should not be trusted.
+
+    Attributes:
+        said: a sentence.
+        excess: how many times what is allowed; more than 1.
+    """
+
+    said: str
+    excess: float
+
+
+def doubts(graph: JointGraph, edges: list[EdgeMap]) -> list[list[Doubt]]:
+    """For each robot why the map should not be trusted.
 
     A bent map shows in sightings that do not fit their landmarks, in odometry that is worse than
     it says it is, and in robots seen where none is.
@@ -37,34 +52,39 @@ def doubts(graph: JointGraph, edges: list[EdgeMap]) -> list[list[str]]:
     for number, *_ in graph.meetings:
         met[number] += 1
     for number, (member, edge) in enumerate(zip(graph.members, edges, strict=True)):
-        said: list[str] = []
-        every.append(said)
+        found: list[Doubt] = []
+        every.append(found)
+        name = member.name
         if edge.trouble:
-            said.append(f"{member.name}: its own map could not be kept up to date: {edge.trouble}")
+            said = f"{name}: its own map could not be kept up to date: {edge.trouble}"
+            found.append(Doubt(said, np.inf))
         share, total = fits[number]
         once, seen = edge.outliers, sum(s.whole for s in member.graph.sightings)
         if seen >= 20 and once > LOST * seen:
-            said.append(
-                f"{member.name}: {once / seen:.0%} of {seen} sightings are of nothing that was "
-                f"seen again (more than {LOST:.0%})"
+            said = (
+                f"{name}: {once / seen:.0%} of {seen} sightings are of nothing that was seen "
+                f"again (more than {LOST:.0%})"
             )
+            found.append(Doubt(said, once / seen / LOST))
         if total >= 20 and share > MISFITS:
-            said.append(
-                f"{member.name}: {share:.0%} of {total} sightings do not fit the map "
+            said = (
+                f"{name}: {share:.0%} of {total} sightings do not fit the map "
                 f"(more than {MISFITS:.0%})"
             )
+            found.append(Doubt(said, share / MISFITS))
         bend = bending(member)
         if bend > BENT:
-            said.append(
-                f"{member.name}: the map bends its odometry {bend**0.5:.1f} times as much as "
-                f"its noise allows"
+            said = (
+                f"{name}: the map bends its odometry {bend**0.5:.1f} times as much as its noise "
+                f"allows"
             )
+            found.append(Doubt(said, bend / BENT))
         robots = len(seen_robots(member))
         if len(graph.members) > 1 and robots >= 20 and met[number] < (1 - UNMET) * robots:
-            said.append(
-                f"{member.name}: of {robots} robots that it saw, only {met[number]} are where "
-                f"a robot is"
+            said = (
+                f"{name}: of {robots} robots that it saw, only {met[number]} are where a robot is"
             )
+            found.append(Doubt(said, (1 - met[number] / robots) / UNMET))
     return every
 
 

@@ -98,8 +98,7 @@ class CollectiveMap:
         joining = Joining(runs, edges, self._similarity, self._settings, progress)
         joining.join()
         progress("done", 1.0)
-        said = [sentence for each in joining.doubts.values() for sentence in each]
-        said += joining.vague
+        said = joining.said()
         for n in joining.lost:
             said.append(f"{runs[n].name} could not be placed: it does not know where it began")
         notes = self.notes

@@ -155,9 +155,7 @@ class EdgeMapper:
         runs, edges = ([self._run], [edge]) if edge is not None else ([], [])
         joining = Joining(runs, edges, self._similarity, self._settings, silent)
         joining.join()
-        said = [sentence for each in joining.doubts.values() for sentence in each]
-        said += joining.vague
-        return outcome(joining, self._dynamic, self._similarity, said, self.notes)
+        return outcome(joining, self._dynamic, self._similarity, joining.said(), self.notes)
 
 
 def _texts(values: Sequence[str]) -> NDArray[np.object_]:

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import gtsam
 import numpy as np
@@ -19,29 +18,13 @@ from numpy.typing import NDArray
 from symboslam.engine.slam import factors
 from symboslam.engine.slam.beliefs import ClassBeliefs
 from symboslam.engine.slam.constellation import Placing, Things, match
+from symboslam.engine.slam.edge_landmarks import EdgeLandmarks, Known
 from symboslam.engine.slam.log import ROBOT, Floats, Pose
 from symboslam.engine.slam.planar import between, compose, place
 from symboslam.engine.slam.pose_graph import Fix, PoseGraph, Sighting
-from symboslam.engine.slam.scale import Scale, together
+from symboslam.engine.slam.scale import Scale
 from symboslam.engine.slam.settings import SlamSettings
 from symboslam.engine.slam.tracks import Track, Tracker
-
-
-@dataclass(frozen=True)
-class Known:
-    """A landmark that others have mapped.
-
-    Attributes:
-        xy: (2,) metres.
-        covariance: (2, 2) of that.
-        evidence: (C,) summed log likelihoods of its class.
-        name: what names it beyond doubt; "" for none.
-    """
-
-    xy: Floats
-    covariance: Floats
-    evidence: Floats
-    name: str = ""
 
 
 class EdgeMap:
@@ -89,25 +72,19 @@ class EdgeMap:
         params.setFactorization("QR")
         self._isam = gtsam.ISAM2(params)
         self._factors, self._values = gtsam.NonlinearFactorGraph(), gtsam.Values()
-        self._xy = np.zeros((0, 2))
-        self._evidence: list[Floats] = []
-        self._frames: dict[int, set[float]] = {}
-        self._named: dict[str, int] = {}
+        self._landmarks = EdgeLandmarks(beliefs.size)
         self._open: list[Track] = []
         self._done = self._poses = self._sightings = self._fixes = 0
         for landmark in known:
             self._take_known(landmark)
 
     def _take_known(self, known: Known) -> None:
-        number = len(self._xy)
+        number = self._landmarks.new(known.xy, known.evidence)
         key = factors.landmark_key(number)
         self._values.insert(key, known.xy)
         factors.add_known(self._factors, key, known.xy, known.covariance)
-        self._xy = np.vstack([self._xy, known.xy])
-        self._evidence.append(known.evidence)
-        self._frames[number] = set()
         if known.name:
-            self._named[known.name] = number
+            self._landmarks.named[known.name] = number
 
     def follow(self, last: bool = False) -> None:
         """Take over what is new in the pose graph; with ``last`` decide on every track."""
@@ -164,7 +141,7 @@ class EdgeMap:
         elif track.number in self.landmark_of:
             self._add(seen, self.landmark_of[track.number])
         if track.key and track.number not in self.landmark_of:
-            self._decide(track, self._named.get(track.key), self._frame(self._poses - 1))
+            self._decide(track, self._landmarks.named.get(track.key), self._frame(self._poses - 1))
 
     def _update(self, last: bool) -> None:
         """Bring the map up to date; with ``last`` decide on every track that waits."""
@@ -176,7 +153,7 @@ class EdgeMap:
             self._isam.update(self._factors, self._values)
             self._factors, self._values = gtsam.NonlinearFactorGraph(), gtsam.Values()
             self._read(number)
-            self.beliefs.learn(self._classes())
+            self.beliefs.learn(self._landmarks.classes())
             self._join(number)
             self._match(number, last)
             if last:
@@ -217,68 +194,46 @@ class EdgeMap:
     def _read(self, number: int) -> None:
         pose = self._isam.calculateEstimatePose2(factors.pose_key(0, number))
         self.estimate = np.array([pose.x(), pose.y(), pose.theta()])
-        for n in range(len(self._xy)):
-            self._xy[n] = self._isam.calculateEstimatePoint2(factors.landmark_key(n))
+        xy = self._landmarks.xy
+        for n in range(len(xy)):
+            xy[n] = self._isam.calculateEstimatePoint2(factors.landmark_key(n))
 
     def _frame(self, number: int) -> Floats:
         """Where the odometry's frame lies on the map, as seen from a key pose."""
         return compose(self.estimate, between(self.graph.odometry[number], np.zeros(3)))
 
-    def _classes(self) -> NDArray[np.int64]:
-        return np.array([np.argmax(self._evidence[n]) for n in self._frames], np.int64)
-
     def _add(self, seen: Sighting, landmark: int) -> None:
         key = factors.pose_key(0, seen.pose)
         factors.add_sighting(self._factors, key, factors.landmark_key(landmark), seen, self._loss)
         evidence = self.beliefs.likelihood(seen.feature, seen.confidence)
-        self._evidence[landmark] = self._evidence[landmark] + evidence
-        self._frames[landmark].add(seen.time)
+        self._landmarks.see(landmark, seen.time, evidence)
 
     def _decide(self, track: Track, landmark: int | None, frame: Floats) -> None:
         """Give a track its landmark, a new one for None."""
         if landmark is None:
-            landmark = len(self._xy)
             xy = place(frame, track.xy)
+            landmark = self._landmarks.new(xy)
             key = factors.landmark_key(landmark)
             self._values.insert(key, xy)
             factors.add_landmark(self._factors, key, xy, 10 * self.scale.spacing(self._done))
-            self._xy = np.vstack([self._xy, xy])
-            self._evidence.append(np.zeros(self.beliefs.size))
-            self._frames[landmark] = set()
         self.landmark_of[track.number] = landmark
         if track.key:
-            self._named.setdefault(track.key, landmark)
+            self._landmarks.named.setdefault(track.key, landmark)
         for seen in track.sightings:
             self._add(seen, landmark)
 
     def _see_part(self, seen: Sighting) -> None:
         """A range or a bearing alone says where a named landmark is, once there is one."""
-        landmark = self._named.get(seen.key) if seen.key else self._in_view(seen)
+        landmark = self._landmarks.named.get(seen.key) if seen.key else self._in_view(seen)
         if landmark is not None:
             self._add(seen, landmark)
             self.partial.append((seen, landmark))
 
     def _in_view(self, seen: Sighting) -> int | None:
-        """The only landmark of the class that a range or a bearing alone fits."""
-        roots = [n for n in self._frames if np.argmax(self._evidence[n]) == seen.feature]
-        if not roots:
-            return None
         step = between(self.graph.odometry[self._poses - 1], self.graph.odometry[seen.pose])
-        away = between(
-            compose(self.estimate, step),
-            np.column_stack([self._xy[roots], np.zeros(len(roots))]),
-        )
-        reach = np.hypot(away[:, 0], away[:, 1])
         slack = 0.1 * self.scale.spacing(self._done)
-        if math.isnan(seen.bearing):
-            fits = abs(reach - seen.range) < slack + 3 * seen.sigma_range
-        else:
-            turn = np.arctan2(away[:, 1], away[:, 0]) - seen.bearing
-            off = abs((turn + np.pi) % (2 * np.pi) - np.pi)
-            near = reach < max(self.scale.reach, slack)
-            fits = near & (off < 3 * seen.sigma_bearing + slack / np.maximum(reach, slack))
-        found = np.flatnonzero(fits)
-        return roots[int(found[0])] if len(found) == 1 else None
+        pose = compose(self.estimate, step)
+        return self._landmarks.in_view(seen, pose, slack, self.scale.reach)
 
     def _match(self, number: int, last: bool) -> None:
         """Find waiting tracks in the map; those that waited long enough become new landmarks."""
@@ -288,7 +243,7 @@ class EdgeMap:
             waiting = [t for t in waiting if t.live or len(t.sightings) > 1]
         ready = [t for t in waiting if len(t.sightings) > 1 or not t.live or last]
         frame = self._frame(number)
-        if ready and self._frames:
+        if ready and len(self._landmarks):
             self._find(ready, number, frame)
         hold = settings.hold * self.scale.spacing(self._done)
         for track in ready:
@@ -301,11 +256,11 @@ class EdgeMap:
     def _find(self, tracks: list[Track], number: int, frame: Floats) -> None:
         settings, graph = self.settings, self.graph
         spacing = self.scale.spacing(self._done)
-        roots = sorted(self._frames)
+        roots = self._landmarks.roots
         here = Things(
             place(frame, np.array([t.xy for t in tracks])), np.array([t.evidence for t in tracks])
         )
-        there = Things(self._xy[roots], np.array([self._evidence[n] for n in roots]))
+        there = self._landmarks.things(roots)
         covariance = self.covariance(number)
         arm = ((here.xy - self.estimate[:2]) ** 2).sum(1)
         sigma = np.array([t.sightings[0].sigma_range for t in tracks])
@@ -340,16 +295,14 @@ class EdgeMap:
             return
         spacing = self.scale.spacing(self._done)
         floor = self.settings.floor * self.scale.sigma
-        alike = self.beliefs.alike(
-            np.array([self._evidence[n] for n in fresh]),
-            np.array([self._evidence[n] for n in roots]),
-        )
-        away = self._xy[fresh][:, None] - self._xy[roots][None]
+        landmarks = self._landmarks
+        alike = self.beliefs.alike(landmarks.evidence(fresh), landmarks.evidence(roots))
+        away = landmarks.xy[fresh][:, None] - landmarks.xy[roots][None]
         near = (alike > 0) & ((away**2).sum(2) < spacing**2)
         covariance: dict[int, Floats] = {}
         for i, j in np.argwhere(near).tolist():
             one, other = fresh[i], roots[j]
-            if one == other or self._together(one, other):
+            if one == other or landmarks.together(one, other):
                 continue
             for n in (one, other):
                 if n not in covariance:
@@ -358,16 +311,12 @@ class EdgeMap:
                 away[i, j],
                 covariance[one] + covariance[other] + np.eye(2) * floor**2,
                 float(alike[i, j]),
-                len(self._frames[one]) + len(self._frames[other]),
+                landmarks.seen(one) + landmarks.seen(other),
                 spacing,
             )
             if odds > self.settings.certainty:
                 self._merge(min(one, other), max(one, other), floor / 4)
                 return
-
-    def _together(self, one: int, other: int) -> bool:
-        """Whether two landmarks were seen beside each other, and so are two."""
-        return together(self._frames[one], self._frames[other])
 
     def _merge(self, keep: int, gone: int, sigma: float) -> None:
         one, other = factors.landmark_key(keep), factors.landmark_key(gone)
@@ -376,8 +325,4 @@ class EdgeMap:
             if landmark == gone:
                 self.landmark_of[track] = keep
         self.partial = [(s, keep if n == gone else n) for s, n in self.partial]
-        for name, landmark in self._named.items():
-            if landmark == gone:
-                self._named[name] = keep
-        self._evidence[keep] = self._evidence[keep] + self._evidence[gone]
-        self._frames[keep] |= self._frames.pop(gone)
+        self._landmarks.merge(keep, gone)

@@ -12,11 +12,12 @@ from itertools import count
 
 from symboslam.engine.slam.association import Association
 from symboslam.engine.slam.beliefs import ClassBeliefs
-from symboslam.engine.slam.consistency import doubts, vagueness
-from symboslam.engine.slam.edge_map import EdgeMap, Known
+from symboslam.engine.slam.consistency import Doubt, doubts, vagueness
+from symboslam.engine.slam.edge_landmarks import Known
+from symboslam.engine.slam.edge_map import EdgeMap
 from symboslam.engine.slam.joint import JointGraph, Member
 from symboslam.engine.slam.log import Floats, Pose
-from symboslam.engine.slam.meetings import find_meetings
+from symboslam.engine.slam.meetings import find_meetings, seen_robots
 from symboslam.engine.slam.placing import place_lost
 from symboslam.engine.slam.run import OWN, Run
 from symboslam.engine.slam.scale import Scale
@@ -32,6 +33,13 @@ def silent(what: str, share: float) -> None:
 
 FULL = 50
 """Iterations of a solution that has far to go, or that is the last, at most."""
+REPAIRS = 6
+"""So many times a robot is mapped again, at most."""
+CERTAINTIES = (1.0, 0.7, 1.5)
+"""A robot is mapped again with so many times the certainty; that counts with which it meets most
+of the others."""
+WHERE = 0.9
+"""A robot that meets this share of those that it saw is where it thinks it is."""
 WELL = 5
 """A landmark seen so often by others is one to go by."""
 
@@ -69,7 +77,7 @@ class Joining:
         self.graph = JointGraph([], settings, 1.0)
         self.placed: list[int] = []
         self.lost = list(range(len(self.runs)))
-        self.doubts: dict[int, list[str]] = {}
+        self.doubts: dict[int, list[Doubt]] = {}
         self.vague: list[str] = []
         self._numbers = count()
         self._named: dict[str, int] = {}
@@ -95,9 +103,12 @@ class Joining:
             self._members[number].put(found[1])
             self._add([number])
         self._look()
-        if self.doubts and len(self.doubts) < len(self.placed):
-            self._repair()
+        self._repair()
         self.vague = vagueness(self.graph, self._scale.reach)
+
+    def said(self) -> list[str]:
+        """Why the map should not be trusted, one sentence each."""
+        return [doubt.said for each in self.doubts.values() for doubt in each] + self.vague
 
     def _add(self, numbers: Sequence[int]) -> None:
         self.placed += numbers
@@ -110,33 +121,65 @@ class Joining:
         self.doubts = {n: each for n, each in zip(self.placed, said, strict=True) if each}
 
     def _repair(self) -> None:
-        """Map those that are doubted again; keep that if it leaves fewer doubts."""
-        before = self.graph, self.edges, self._members, self.doubts, self.placed
+        """Map the robot that is doubted most again, then the next, as long as that helps.
+
+        A robot that is wrong makes those doubted that saw it, so one at a time.
+        """
+        tried: set[int] = set()
+        for _ in range(REPAIRS):
+            left = {n: self._excess(n) for n in self.doubts if n not in tried}
+            if not left or len(self.placed) < 2:
+                break
+            worst = max(left, key=lambda n: left[n])
+            if self._map_again(worst):
+                tried.clear()
+            tried.add(worst)
+
+    def _excess(self, *numbers: int) -> float:
+        """How much robots are doubted."""
+        return sum(doubt.excess for n in numbers for doubt in self.doubts.get(n, ()))
+
+    def _map_again(self, number: int) -> bool:
+        """Map a robot by what the others have mapped; keep that if there is less to doubt.
+
+        Returns:
+            Whether it is kept.
+        """
+        before = self.graph, list(self.edges), list(self._members), self.doubts
         kept = [(m, m.poses, [piece.label for piece in m.pieces]) for m in self._members]
-        doubted = list(self.doubts)
-        trusted = [n for n in self.placed if n not in doubted]
-        self.edges, self._members = list(self.edges), list(self._members)
-        graph = self._solved([self._members[n] for n in trusted])
-        given, known = _known(graph)
-        for number in doubted:
-            self._progress(f"mapping {self.runs[number].name} again", 0.5)
-            run = self.runs[number]
-            x, y, heading = self._members[number].poses[0].tolist()
-            start: Pose = run.start or (x, y, heading)
-            edge = run.mapped_again(start, known)
-            self.edges[number] = edge
-            self._members[number] = self._member(number, edge, given)
-        self.placed = trusted + doubted
+        run = self.runs[number]
+        self._progress(f"mapping {run.name} again", 0.5)
+        others = self._graph([self._members[n] for n in self.placed if n != number])
+        others.solve(self._settings.kernel, FULL)
+        others.marginals()
+        given, known = _known(others)
+        x, y, heading = self._members[number].poses[0].tolist()
+        start: Pose = run.start or (x, y, heading)
+        best = -1
+        for share in CERTAINTIES:
+            edge = run.mapped_again(start, known, share * self._settings.certainty)
+            member = self._member(number, edge, given)
+            trial = self._graph([*others.members, member])
+            find_meetings(trial)
+            if len(trial.meetings) > best:
+                best = len(trial.meetings)
+                self.edges[number], self._members[number] = edge, member
+            robots = len(seen_robots(member))
+            if sum(seen[0] == len(others.members) for seen in trial.meetings) >= WHERE * robots:
+                break
         self.graph = self._solved([self._members[n] for n in self.placed])
+        excess = self._excess(*self.placed)
         self._look()
-        if sum(map(len, self.doubts.values())) >= sum(map(len, before[3].values())):
-            self.graph, self.edges, self._members, self.doubts, self.placed = before
-            for member, poses, labels in kept:
-                member.poses = poses
-                for piece, label in zip(member.pieces, labels, strict=True):
-                    piece.label = label
-            for number, member in enumerate(self.graph.members):
-                member.renumber(number)
+        if self._excess(*self.placed) < excess:
+            return True
+        self.graph, self.edges, self._members, self.doubts = before
+        for member, poses, labels in kept:
+            member.poses = poses
+            for piece, label in zip(member.pieces, labels, strict=True):
+                piece.label = label
+        for at, member in enumerate(self.graph.members):
+            member.renumber(at)
+        return False
 
     def _member(self, number: int, edge: EdgeMap, known: Sequence[int] = ()) -> Member:
         """A run as part of the graph; ``known`` are labels of landmarks that it was given."""
@@ -150,10 +193,10 @@ class Joining:
                 piece.label = self._named.setdefault(piece.track.key, piece.label)
         return member
 
-    def _solved(self, members: list[Member]) -> JointGraph:
-        """Robots in one frame, merged round by round."""
-        settings, scale = self._settings, self._scale
-        graph = JointGraph(members, settings, scale.spacing(sum(len(m.graph) for m in members)))
+    def _graph(self, members: list[Member]) -> JointGraph:
+        """Robots in one frame, not solved yet."""
+        spacing = self._scale.spacing(sum(len(m.graph) for m in members))
+        graph = JointGraph(members, self._settings, spacing)
         for number, member in enumerate(members):
             member.renumber(number)
         graph.parts = [
@@ -161,15 +204,22 @@ class Joining:
             for number, member in enumerate(members)
             for seen, label in member.parts
         ]
-        far = True
+        return graph
+
+    def _solved(self, members: list[Member]) -> JointGraph:
+        """Robots in one frame, merged round by round until nothing changes or all comes round."""
+        settings, scale = self._settings, self._scale
+        graph, far = self._graph(members), True
+        passed: set[tuple[int, ...]] = set()
         for turn in range(settings.rounds):
             self._progress("merging", turn / settings.rounds)
             if far:
                 graph.solve(0, FULL)
             find_meetings(graph)
             graph.solve(settings.kernel)
-            if not graph.labels():
+            if not graph.labels() or _partition(graph) in passed:
                 break
+            passed.add(_partition(graph))
             graph.marginals()
             association = Association(graph, self._beliefs, scale, self._numbers)
             changed = association.merge_near()
@@ -182,6 +232,12 @@ class Joining:
             graph.solve(settings.kernel, FULL)
             graph.marginals()
         return graph
+
+
+def _partition(graph: JointGraph) -> tuple[int, ...]:
+    """Which tracks are of one landmark, whatever its label: the first track of each."""
+    first: dict[int, int] = {}
+    return tuple(first.setdefault(piece.label, n) for n, piece in enumerate(graph.pieces))
 
 
 def _known(graph: JointGraph) -> tuple[list[int], list[Known]]:

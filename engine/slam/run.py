@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symboslam.engine.slam.beliefs import ClassBeliefs
-from symboslam.engine.slam.edge_map import EdgeMap, Known
+from symboslam.engine.slam.edge_landmarks import Known
+from symboslam.engine.slam.edge_map import EdgeMap
 from symboslam.engine.slam.increment import EdgeIncrement
 from symboslam.engine.slam.joint import Member, Piece
 from symboslam.engine.slam.log import ROBOT, Closures, Floats, Pose
@@ -132,15 +134,15 @@ class Run:
         self._map.follow(last)
         return self._map
 
-    def mapped_again(self, start: Pose, known: Sequence[Known]) -> EdgeMap:
-        """The run's map made anew, with landmarks of others to go by."""
+    def mapped_again(self, start: Pose, known: Sequence[Known], certainty: float) -> EdgeMap:
+        """The run's map made anew, with landmarks of others and a certainty to go by."""
         edge = EdgeMap(
             self.graph,
             ClassBeliefs(self._similarity),
             self._dynamic,
             start,
             self.start_sigma if self.start else LOOSE,
-            self.settings,
+            replace(self.settings, certainty=certainty),
             known,
         )
         edge.follow(last=True)

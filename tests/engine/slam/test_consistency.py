@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from symboslam.engine.slam.consistency import bending, doubts, misfits, vagueness
+from symboslam.engine.slam.consistency import Doubt, bending, doubts, misfits, vagueness
 from symboslam.engine.slam.joint import JointGraph, Member
 from symboslam.engine.slam.log import ROBOT
 from symboslam.engine.slam.pose_graph import Sighting
@@ -22,7 +22,7 @@ def said(*members: Member, **edge: Any) -> list[list[str]]:
         member.renumber(n)
     graph.put_landmarks()
     edges: Any = [SimpleNamespace(**({"trouble": "", "outliers": 0} | edge)) for _ in members]
-    return doubts(graph, edges)
+    return [[doubt.said for doubt in each] for each in doubts(graph, edges)]
 
 
 def test_a_map_that_fits_is_not_doubted(robot: Any) -> None:
@@ -63,7 +63,8 @@ def test_sightings_that_do_not_fit_are_doubted(robot: Any) -> None:
         graph.xy[n] = graph.xy[n] + 3.0
     assert misfits(graph) == [(0.25, 40)]
     edge: Any = SimpleNamespace(trouble="", outliers=0)
-    assert doubts(graph, [edge]) == [["r: 25% of 40 sightings do not fit the map (more than 15%)"]]
+    sentence = "r: 25% of 40 sightings do not fit the map (more than 15%)"
+    assert doubts(graph, [edge]) == [[Doubt(sentence, 0.25 / 0.15)]]
 
 
 def test_trouble_and_outliers_of_its_own_map_are_told(robot: Any) -> None:
