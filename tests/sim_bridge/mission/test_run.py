@@ -69,6 +69,9 @@ def yard(path: Path, **more: object) -> Path:
     return path
 
 
+CAT = {"id": "cat", "class": "Cat", "x": 118, "y": 118}  # too small to be seen from afar
+
+
 def test_a_whole_mission(tmp_path: Path) -> None:
     record, page = tmp_path / "record", tmp_path / "map.html"
     args = ("demo", "--time-limit", 1.5, "--seed", 2, "--record", record, "--out", page)
@@ -171,10 +174,11 @@ def test_a_robot_that_is_walled_in_is_given_up(tmp_path: Path) -> None:
     world = yard(
         tmp_path / "w.json",
         walls=[{"points": ring, "height": 1.2}],
-        starts=[{"x": 20, "y": 20}, {"x": 100, "y": 100}],
+        starts=[{"x": 20, "y": 20}, {"x": 20, "y": 90}],
+        objects=[CAT],
     )
     record = tmp_path / "r"
-    text = run(world, "--robots", 2, "--time-limit", 2, "--record", record)
+    text = run(world, "--robots", 2, "--time-limit", 1.5, "--record", record)
     assert "robot 1: stuck 5 times in one place; it is given up" in text
     kinds = [(e["robot"], e["event"]) for e in events(record)]
     assert kinds.count(("robot 1", "stuck")) == 5
@@ -183,7 +187,7 @@ def test_a_robot_that_is_walled_in_is_given_up(tmp_path: Path) -> None:
 
 def test_a_husky_in_a_yard(tmp_path: Path) -> None:
     args = ("--robot", "husky", "--robots", 1, "--time-limit", 0.2, "--json")
-    metrics = json.loads(run(yard(tmp_path / "w.json"), *args))
+    metrics = json.loads(run(yard(tmp_path / "w.json", objects=[CAT]), *args))
     assert metrics["time_s"] == 12
 
 
