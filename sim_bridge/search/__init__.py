@@ -1,0 +1,1 @@
+"""Search: strategies that send robots through an area, steering, coverage, and their metrics."""
