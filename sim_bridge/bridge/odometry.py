@@ -51,7 +51,7 @@ def noise_of(spec: OdometrySpec) -> OdometryNoise:
     """What the noise comes to for map building, for steps of ``spec.step`` metres."""
     return OdometryNoise(
         along=math.hypot(spec.way_noise, spec.way_bias),
-        across=0.002,
+        across=0.006,  # a turn in mid-step
         turn=spec.turn_scale,
         drift=math.hypot(spec.turn_noise, spec.turn_bias) / spec.step,
         floor=(0.01, 0.01, 1e-4),

@@ -11,7 +11,7 @@ from symboslam.engine.slam.edge import EdgeMapper
 from symboslam.engine.slam.planar import between, compose
 from symboslam.sim_bridge.bridge.camera import Camera
 from symboslam.sim_bridge.bridge.detections import Detector
-from symboslam.sim_bridge.bridge.lidar import Lidar
+from symboslam.sim_bridge.bridge.lidar import Lidar, Scan
 from symboslam.sim_bridge.bridge.odometry import Gps, WheelOdometry
 from symboslam.sim_bridge.bridge.ranging import expected_range, measure
 from symboslam.sim_bridge.bridge.robots import Robot
@@ -28,6 +28,8 @@ Pose = tuple[float, float, float]
 
 NEAR = 25.0
 """Metres within which the lidar looks for what is in the way."""
+GRID = 4.0
+"""Metres between obstacles that are remembered."""
 THIN = 4
 """To drive, each so-manieth ray is enough."""
 STAND = 10.0
@@ -58,6 +60,9 @@ class EdgeAgent:
         targets: what it has seen of what stands still.
         target: what it approaches.
         bumps: how often it ran into something.
+        stuck: whether it was stuck at the last tick.
+        obstacles: where its lidar met something while it drove, in its own eyes, on a grid of
+            `GRID` metres.
     """
 
     def __init__(
@@ -84,6 +89,8 @@ class EdgeAgent:
         self.target: Target | None = None
         self.watch = Watch()
         self.bumps = 0
+        self.stuck = False
+        self.obstacles: set[Point] = set()
         self._bumped = False
         self._back = self._detour = 0.0
         self._side = 1
@@ -185,6 +192,7 @@ class EdgeAgent:
             if steps % 2 == 0:
                 near = self.scene.solid.clearance(*true[:2]) < NEAR
                 scan = self._lidar.scan(true, THIN, NEAR) if near else None
+                self._remember(scan)
             steps += 1
             x, y, heading = self.pose
             to, stand = goal, 0.0
@@ -199,6 +207,17 @@ class EdgeAgent:
             speed, turn = command(scan, wanted, distance, self.robot.top_speed, settings.radius)
             self._step(speed, turn, step)
 
+    def _remember(self, scan: Scan | None) -> None:
+        """Take over what a scan met into the obstacles."""
+        if scan is None:
+            return
+        hit = np.isfinite(scan.range)
+        x, y, heading = self.pose
+        angle = scan.bearing[hit] + heading
+        across = np.round((x + scan.range[hit] * np.cos(angle)) / GRID) * GRID
+        up = np.round((y + scan.range[hit] * np.sin(angle)) / GRID) * GRID
+        self.obstacles.update(zip(across.tolist(), up.tolist(), strict=True))
+
     def _step(self, speed: float, turn: float, seconds: float) -> None:
         self.robot.drive(speed, turn, seconds)
         self._odometry.move(self.robot.pose)
@@ -208,6 +227,7 @@ class EdgeAgent:
     def look_after(self, time: float, wants: bool) -> Finding | None:
         """Notice a robot that tipped over or is stuck, and free it or give it up."""
         finding = self.watch.check(time, self._odometry.pose[:2], wants, self.robot.tipped)
+        self.stuck = finding is not None
         if finding is None:
             return None
         if finding.kind == "tipped":

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import time as clock
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from symboslam.engine.slam.edge import EdgeMapper
 from symboslam.engine.slam.log import Mission as SlamMission
@@ -23,11 +25,14 @@ from symboslam.sim_bridge.bridge.robots import get_robot
 from symboslam.sim_bridge.bridge.scene import Others, Scene
 from symboslam.sim_bridge.bridge.settings import BridgeSettings
 from symboslam.sim_bridge.bridge.stock import Stock
-from symboslam.sim_bridge.mission.control_agent import ControlAgent, Search
-from symboslam.sim_bridge.mission.coverage import Swept, dispersion
+from symboslam.sim_bridge.mission.control_agent import ControlAgent
 from symboslam.sim_bridge.mission.edge_agent import EdgeAgent, things_seen
 from symboslam.sim_bridge.mission.journal import Journal, Seen
 from symboslam.sim_bridge.mission.trouble import Finding
+from symboslam.sim_bridge.search._base import Search
+from symboslam.sim_bridge.search.area import Area
+from symboslam.sim_bridge.search.coverage import Coverage
+from symboslam.sim_bridge.search.swarm_metrics import dispersion, ideal_area
 from symboslam.sim_bridge.worlds.checks import free_starts
 from symboslam.sim_bridge.worlds.sizes import CLASSES
 from symboslam.sim_bridge.worlds.starts import with_starts
@@ -124,6 +129,17 @@ class Team:
         """Leave all physics clients."""
         for scene in self.scenes:
             scene.close()
+
+    def area(self) -> Area:
+        """What is to be searched, as the search strategies know it: without obstacles."""
+        e, s = self.world.extent, self.settings
+        return Area(
+            (e.min_x, e.min_y, e.max_x, e.max_y),
+            tuple(agent.journal.start for agent in self.agents),
+            min(agent.robot.top_speed for agent in self.agents),
+            s.reach,
+            s.bridge.camera.fov,
+        )
 
     def slam_mission(self) -> SlamMission:
         """All logs, with the truth for those who measure."""
@@ -259,9 +275,9 @@ class _Flight:
         self._team, self._listener, self._progress = team, listener, progress
         s = team.settings
         self._control = ControlAgent(team.agents, search)
-        self._swept = Swept(
-            team.world.extent, s.reach, s.bridge.camera.fov, s.robots, s.bridge.speed
-        )
+        self._area = team.area()
+        self._swept = Coverage(team.area().extent, s.reach / 12)
+        self._before: list[NDArray[np.float64]] = []
         self._found: dict[str, float] = {}
         self._ticks: list[Tick] = []
         self._told = [0] * len(team.agents)
@@ -315,7 +331,7 @@ class _Flight:
                 self._team.notes.append(note)
                 self._listener.event(time, agent.name, "mesh", note)
             self._told[n] = len(agent.scene.notes)
-        self._swept.see(poses.values())
+        self._sweep([np.array(pose) for pose in poses.values()])
         tick = self._tick(time)
         if abs(time - round(time)) < 1e-9:
             self._ticks.append(tick)
@@ -325,6 +341,12 @@ class _Flight:
             self._viewer[0].follow([p[:2] for p in poses.values()])
             self._viewer[1].show(poses)
         return tick
+
+    def _sweep(self, poses: list[NDArray[np.float64]]) -> None:
+        """Mark what the robots truly looked at since the last tick."""
+        for before, after in zip(self._before or poses, poses, strict=True):
+            self._swept.sweep(before, after, self._area.reach, self._area.fov)
+        self._before = poses
 
     def _act(self, time: float, step: float) -> None:
         """The control agent gives goals, every robot drives."""
@@ -349,12 +371,19 @@ class _Flight:
         return Tick(
             time,
             self._swept.share,
-            self._swept.formula(time),
+            formula(self._area, time),
             len(self._found),
             len(self._team.world.objects),
-            dispersion(agent.robot.pose for agent in self._team.agents),
+            dispersion(np.array([agent.robot.pose for agent in self._team.agents])),
             time / max(real, 1e-9),
         )
+
+
+def formula(area: Area, seconds: float) -> float:
+    """The paper's A'/A after some seconds, at most 1; W is the width of the sensor's sector."""
+    width = 2 * area.reach * math.sin(min(area.fov, math.pi) / 2)
+    ideal = ideal_area(area.speed, width, seconds, area.robots)
+    return min(ideal / (area.width * area.height), 1.0)
 
 
 def _labels(position: Mapping[str, int]) -> dict[str, int]:

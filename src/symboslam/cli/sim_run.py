@@ -31,6 +31,8 @@ symboslam sim run city --slam oracle --segmentation branch --json
 symboslam sim run my-yard.json --robot husky --robots 1 --time-limit 5
 """
 INTERRUPTED = 130
+OTHERS = 10.0
+"""Minutes in worlds that the paper does not have."""
 
 
 class RobotKind(StrEnum):
@@ -80,7 +82,14 @@ def run(
             "for small areas."
         ),
     ] = RobotKind.KINEMATIC,
-    search: Annotated[str, typer.Option(metavar="NAME", help="Search strategy.")] = "waypoints",
+    search: Annotated[
+        str,
+        typer.Option(
+            metavar="NAME",
+            help="Search strategy: random-walk (the paper's), correlated-walk, ballistic, "
+            "random-waypoint, frontier or boustrophedon.",
+        ),
+    ] = "boustrophedon",
     slam: Annotated[
         Slam,
         typer.Option(
@@ -98,8 +107,11 @@ def run(
         Segmentation, typer.Option(help="How the map is cut.")
     ] = Segmentation.GRID,
     time_limit: Annotated[
-        float, typer.Option(metavar="MIN", min=0.0, help="Simulated minutes.")
-    ] = 40.0,
+        float | None,
+        typer.Option(
+            metavar="MIN", help="Simulated minutes.", show_default="the paper's of its areas, or 10"
+        ),
+    ] = None,
     speed: Annotated[float, typer.Option(metavar="M/S", help="Of the robots, at most.")] = 10.0,
     gps: Annotated[bool, typer.Option("--gps", help="Robots have GPS, good to 3 m.")] = False,
     seed: Annotated[int, typer.Option(min=0, help="The same seed gives the same run.")] = 0,
@@ -129,13 +141,14 @@ def run(
     Ctrl-C ends the mission; what was recorded by then is valid. The exit code is then 130.
     """
     targets = list(outs or [])
-    _check(targets, world, time_limit, speed)
+    minutes = _minutes(world) if time_limit is None else time_limit
+    _check(targets, world, minutes, speed)
     from dataclasses import replace
 
     from symboslam.sim_bridge.bridge.detections import get_detector
     from symboslam.sim_bridge.bridge.settings import BridgeSettings, DetectorSpec, GpsSpec
-    from symboslam.sim_bridge.mission.strategies import get_search
     from symboslam.sim_bridge.objects.bullet import import_pybullet
+    from symboslam.sim_bridge.search.registry import get_search, search_of
     from symboslam.sim_bridge.worlds.generator import get_world
 
     if detector == DetectorName.ONNX:
@@ -144,13 +157,13 @@ def run(
         get_detector("onnx", DetectorSpec(), (), np.random.default_rng(0))
     import_pybullet()
     made, odd = get_world(world, world_seed)
-    strategy = get_search(search, made.extent, seed)
+    get_search(search)
     from symboslam.sim_bridge.mission.mission import MissionSettings, assemble, fly
     from symboslam.sim_bridge.mission.outcome import conclude, mission_figures
     from symboslam.sim_bridge.mission.record import Recorder
 
     settings = MissionSettings(
-        robots, str(robot), str(detector), 60 * time_limit, seed, window=gui,
+        robots, str(robot), str(detector), 60 * minutes, seed, window=gui,
         bridge=replace(BridgeSettings(), speed=speed, gps=GpsSpec() if gps else None),
     )  # fmt: skip
     config = {"world": world, "world_seed": world_seed, "search": search, "slam": str(slam),
@@ -161,7 +174,10 @@ def run(
         team = assemble(made, settings, knowledge)
         try:
             ended = fly(
-                team, strategy, recorder, lambda tick: _told(progress, settings.time_limit, tick)
+                team,
+                search_of(search, team.area(), seed),
+                recorder,
+                lambda tick: _told(progress, settings.time_limit, tick),
             )
             if ended.ended == "interrupted":
                 metrics = mission_figures(team, ended)
@@ -188,6 +204,14 @@ def run(
         show("\n".join([*_sentences(metrics), *metrics["notes"], *wrote]))
     if ended.ended == "interrupted":
         raise typer.Exit(INTERRUPTED)
+
+
+def _minutes(world: str) -> float:
+    """The time that the paper's robots had in an area of that name."""
+    from symboslam.sim_bridge.search.paper_areas import AREAS
+
+    area = AREAS.get(world.casefold())
+    return OTHERS if area is None else area.minutes
 
 
 def _check(targets: Sequence[Path], world: str, time_limit: float, speed: float) -> None:

@@ -7,14 +7,12 @@ import math
 import numpy as np
 import pytest
 
-from symboslam.errors import InputError
 from symboslam.sim_bridge.bridge.lidar import Scan
-from symboslam.sim_bridge.mission.coverage import Swept, dispersion
 from symboslam.sim_bridge.mission.driver import BRAKE, ahead, command, heading_for
-from symboslam.sim_bridge.mission.strategies import get_search
+from symboslam.sim_bridge.mission.mission import formula
 from symboslam.sim_bridge.mission.targets import Targets
 from symboslam.sim_bridge.mission.trouble import STILL, TRIES, Watch
-from symboslam.sim_bridge.worlds.world import Extent
+from symboslam.sim_bridge.search.area import Area
 
 
 def scan(**ranges: float) -> Scan:
@@ -115,23 +113,8 @@ def test_trouble_in_another_place_counts_anew() -> None:
         assert finding.kind == "tipped"
 
 
-def test_coverage_is_a_sector_and_the_paper_s_formula() -> None:
-    extent = Extent(0, 0, 400, 400)
-    swept = Swept(extent, 60, math.pi / 2, 2, 10.0)
-    swept.see([(200, 200, 0.3)])
-    assert swept.share * 160_000 == pytest.approx(math.pi * 60**2 / 4, rel=0.02)
-    swept.see([(200, 200, 0.3), (-500, 0, 0), (390, 390, 0)])
-    assert swept.share < 0.04
+def test_the_paper_s_formula_for_coverage() -> None:
+    area = Area((0, 0, 400, 400), ((1, 1, 0), (2, 2, 0)), 10.0, 60.0, math.pi / 2)
     width = 2 * 60 * math.sin(math.pi / 4)
-    assert swept.formula(10) == pytest.approx(2 * 10 * width * 10 / 160_000)
-    assert swept.formula(1e6) == 1
-
-
-def test_dispersion_is_the_mean_distance_of_pairs() -> None:
-    assert dispersion([(0, 0, 0)]) == 0
-    assert dispersion([(0, 0, 0), (3, 4, 0), (0, 0, 1)]) == pytest.approx(10 / 3)
-
-
-def test_searches_by_name() -> None:
-    with pytest.raises(InputError, match="there are: "):
-        get_search("magic", Extent(0, 0, 1, 1), 0)
+    assert formula(area, 10) == pytest.approx(2 * 10 * width * 10 / 160_000)
+    assert formula(area, 1e6) == 1

@@ -178,7 +178,8 @@ def test_a_robot_that_is_walled_in_is_given_up(tmp_path: Path) -> None:
         objects=[CAT],
     )
     record = tmp_path / "r"
-    text = run(world, "--robots", 2, "--time-limit", 1.5, "--record", record)
+    args = ("--robots", 2, "--time-limit", 1.5, "--search", "random-waypoint", "--record", record)
+    text = run(world, *args)
     assert "robot 1: stuck 5 times in one place; it is given up" in text
     kinds = [(e["robot"], e["event"]) for e in events(record)]
     assert kinds.count(("robot 1", "stuck")) == 5
