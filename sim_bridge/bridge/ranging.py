@@ -18,8 +18,8 @@ from symboslam.sim_bridge.bridge.settings import CameraSpec
 from symboslam.sim_bridge.objects.bullet import ROUND
 from symboslam.sim_bridge.worlds.sizes import SIZES
 
-SIGMA_RANGE = 1.5
-"""Metres: what buildings differ from their nominal depth, and where on them rays hit."""
+SIGMA_RANGE = 0.8
+"""Metres, of most things; where another thing is in the way it is more, as it is for large ones."""
 SIGMA_BEARING = 0.02
 """Radians: a third of a degree for the points of the picture, more for what is half hidden."""
 AGREE = 2.0

@@ -23,7 +23,7 @@ from symboslam.engine.slam.slam_map import SlamMap
 from symboslam.engine.slam.writers import write_slam_map
 from symboslam.errors import InputError
 from symboslam.reasoning.knowledge import Knowledge
-from symboslam.sim_bridge.mission.mission import Outcome, Team
+from symboslam.sim_bridge.mission.mission import MAPPING, Outcome, Team
 from symboslam.sim_bridge.worlds.truth import zones_geojson
 from symboslam.sim_bridge.worlds.world import World
 
@@ -66,7 +66,7 @@ def build_map(mission: SlamMission, method: str, progress: Progress) -> SlamMap:
     if method == "ours":
         from symboslam.engine.slam.estimate import estimate
 
-        return estimate(blind(mission), progress=progress)
+        return estimate(blind(mission), MAPPING, progress)
     if method not in SLAMS:
         raise InputError(f"no way of map building {method!r}; there are: {', '.join(SLAMS)}")
     return paper_map(mission, oracle=method == "oracle")
