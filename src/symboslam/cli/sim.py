@@ -4,12 +4,8 @@ from __future__ import annotations
 
 import typer
 
-from symboslam.cli import sim_world
+from symboslam.cli import sim_search, sim_world
 
 app = typer.Typer(no_args_is_help=True, help="Simulation: worlds for robots, and robots in them.")
 app.command("world", epilog=sim_world.EXAMPLES)(sim_world.world)
-
-
-@app.callback()
-def _several() -> None:
-    """Keep the group a group while it has a single command."""
+app.command("search", epilog=sim_search.EXAMPLES)(sim_search.search)
