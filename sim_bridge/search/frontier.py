@@ -11,6 +11,7 @@ from typing import ClassVar
 
 import numpy as np
 from scipy.ndimage import binary_dilation
+from shapely import LinearRing, box, line_interpolate_point
 
 from symboslam.sim_bridge.search._base import Goals, Search
 from symboslam.sim_bridge.search.area import Area, Bools, Floats
@@ -26,7 +27,7 @@ _KEEP = 60.0  # seconds after which a goal is chosen anew in any case
 class Frontier(Search):
     """The nearest frontier of the own Voronoi cell; when there is none, the nearest of all.
 
-    When all was seen robots look again, at the corners first, as cells are seen by their middles.
+    When all was seen robots look again, along the edge first, as cells are seen by their middles.
     """
 
     name: ClassVar[str] = "frontier"
@@ -39,9 +40,9 @@ class Frontier(Search):
         self._done = False
         inset = min(area.reach / 2, area.width / 4, area.height / 4)
         min_x, min_y, max_x, max_y = area.extent
-        self._corners = [
-            (x, y) for x in (min_x + inset, max_x - inset) for y in (min_y + inset, max_y - inset)
-        ]
+        ring = LinearRing(box(min_x + inset, min_y + inset, max_x - inset, max_y - inset).exterior)
+        places = line_interpolate_point(ring, np.arange(0.0, ring.length, 4 * inset))
+        self._edge: list[tuple[float, float]] = [(p.x, p.y) for p in places]
         self._near = inset / 2
 
     def _goals(self, swarm: Swarm) -> Goals:
@@ -96,11 +97,11 @@ class Frontier(Search):
         self._since[robot] = swarm.time
 
     def _patrol(self, swarm: Swarm, robot: int) -> Goal:
-        """Where to look again when all cells were seen: the corners, then anywhere."""
+        """Where to look again when all cells were seen: along the edge, then anywhere."""
         x, y = swarm.poses[robot, :2].tolist()
-        if self._corners:
-            near = [math.dist((x, y), corner) for corner in self._corners]
-            return Goal(*self._corners.pop(near.index(min(near))))
+        if self._edge:
+            near = [math.dist((x, y), place) for place in self._edge]
+            return Goal(*self._edge.pop(near.index(min(near))))
         min_x, min_y, max_x, max_y = self.area.extent
         u, v = self.rng.random(2).tolist()
         return Goal(min_x + u * (max_x - min_x), min_y + v * (max_y - min_y))

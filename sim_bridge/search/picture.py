@@ -34,7 +34,7 @@ def draw_paths(
     from matplotlib.patches import Circle as Disc
     from matplotlib.patches import Rectangle
 
-    columns = min(len(panels), 3)
+    columns = min(len(panels), 2 if len(panels) == 4 else 3)
     rows = -(-len(panels) // columns)
     figure = Figure(figsize=(3.6 * columns, 3.9 * rows), dpi=100, layout="constrained")
     axes = np.atleast_1d(figure.subplots(rows, columns, squeeze=False)).ravel()

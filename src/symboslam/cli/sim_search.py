@@ -167,7 +167,8 @@ def _table(rows: Rows, timed: bool) -> Table:
     from symboslam.cli.common import table
 
     result = table(
-        "area", "min", "A'/A", "strategy", "seen", "paper", "95 %", "all found", "apart", "of diag.",
+        "area", "min", "A'/A", "strategy", "seen", "paper", "95 %", "all found",
+        "apart", "of diag.",
     )  # fmt: skip
     result.columns[3].no_wrap = True
     for column in result.columns:
