@@ -97,7 +97,7 @@ def test_walks_pass_obstacles() -> None:
     area = Area((0.0, 0.0, 600.0, 600.0), ((30.0, 30.0, 0.0),), obstacles=(Circle(300, 300, 80),))
     for name in ("random-walk", "ballistic", "random-waypoint"):
         trial = run_trial(area, name, FEW, 600, stop=False)
-        assert trial.metrics.coverage[-1] > 0.6, name
+        assert trial.metrics.coverage[-1] > 0.5, name
 
 
 def test_systematic_search_beats_chance() -> None:
