@@ -56,7 +56,7 @@ class Boustrophedon(Search):
         self._work: list[_Work] | None = None
         self._lost: set[int] = set()
         self._filler = Frontier(area, seed)
-        self._tolerance = min(max(area.reach / 8, area.speed / 2), area.sensor_width / 2)
+        self._tolerance = min(max(area.reach / 20, area.speed / 2), area.sensor_width / 2)
         self._ahead = max(area.reach / 2, 2 * area.speed)
         self._skip = area.reach / 2
 
