@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
@@ -33,6 +34,7 @@ def draw_paths(
     from matplotlib.figure import Figure
     from matplotlib.patches import Circle as Disc
     from matplotlib.patches import Rectangle
+    from PIL import Image  # comes with matplotlib
 
     columns = min(len(panels), 2 if len(panels) == 4 else 3)
     rows = -(-len(panels) // columns)
@@ -66,8 +68,10 @@ def draw_paths(
         at = min(seconds, float(trial.metrics.time[-1]))
         axis.set_title(f"{title}: {share:.1%} in {at / 60:.1f} min", fontsize=10)
         axis.set(xlim=(low_x, high_x), ylim=(low_y, high_y), aspect="equal", xticks=[], yticks=[])
-    with atomic_file(target) as handle:
-        figure.savefig(handle, format="png")
+    drawn = io.BytesIO()
+    figure.savefig(drawn, format="png")
+    with atomic_file(target) as handle, Image.open(drawn) as image:
+        image.convert("RGB").quantize(48).save(handle, format="png", optimize=True)
 
 
 def _seen(area: Area, paths: Floats) -> Coverage:
