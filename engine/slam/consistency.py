@@ -5,12 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from symboslam.engine.slam.edge_map import EdgeMap
-from symboslam.engine.slam.joint import JointGraph, Member
+from symboslam.engine.slam.joint import JointGraph, Member, Piece
 from symboslam.engine.slam.log import Floats
 from symboslam.engine.slam.meetings import seen_robots
 from symboslam.engine.slam.planar import between, wrap
+from symboslam.engine.slam.unseen import unseen
 
 MISFITS = 0.15
 """Share of a robot's sightings beyond four standard deviations, from which it is doubted."""
@@ -18,6 +20,10 @@ UNMET = 0.2
 """Share of robots seen that are where no robot is, from which a robot is doubted."""
 LOST = 0.15
 """Share of a robot's sightings that are of nothing seen again, from which it is doubted."""
+MISSED = 0.2
+"""Share of landmarks in view again and again, but never seen, from which a robot is doubted."""
+ELSEWHERE = 0.3
+"""Share of the sightings of a name that do not fit, from which it is of several things."""
 VAGUE = 0.2
 """A landmark is vague if its standard deviation is more than this share of what the sensor reaches;
 a map is, if more than this share of its landmarks are."""
@@ -44,10 +50,11 @@ def doubts(graph: JointGraph, edges: list[EdgeMap]) -> list[list[Doubt]]:
     """For each robot why the map should not be trusted.
 
     A bent map shows in sightings that do not fit their landmarks, in odometry that is worse than
-    it says it is, and in robots seen where none is.
+    it says it is, in robots seen where none is, and in landmarks not seen where they should be.
     """
     every = []
     fits = misfits(graph)
+    missing = unseen(graph)
     met = {number: 0 for number in range(len(graph.members))}
     for number, *_ in graph.meetings:
         met[number] += 1
@@ -79,6 +86,13 @@ def doubts(graph: JointGraph, edges: list[EdgeMap]) -> list[list[Doubt]]:
                 f"allows"
             )
             found.append(Doubt(said, bend / BENT))
+        missed, expected = missing[number]
+        if expected >= 10 and missed > MISSED * expected:
+            said = (
+                f"{name}: {missed} of {expected} times a landmark was in view again and again "
+                f"and never seen, one of its own by others or of theirs by it"
+            )
+            found.append(Doubt(said, missed / expected / MISSED))
         robots = len(seen_robots(member))
         if len(graph.members) > 1 and robots >= 20 and met[number] < (1 - UNMET) * robots:
             said = (
@@ -108,20 +122,42 @@ def vagueness(graph: JointGraph, reach: float) -> list[str]:
     ]
 
 
+def names_of_several(graph: JointGraph) -> list[str]:
+    """Names that are read in several places, one sentence each: such merge what is not one."""
+    bad: dict[str, int] = {}
+    total: dict[str, int] = {}
+    for piece in graph.pieces:
+        name = piece.track.key
+        if name:
+            bad[name] = bad.get(name, 0) + int(_misfit(graph, piece).sum())
+            total[name] = total.get(name, 0) + len(piece.track.sightings)
+    return [
+        f"what is named {name!r} is not one thing: {bad[name]} of {times} sightings of it are "
+        f"somewhere else"
+        for name, times in total.items()
+        if times >= 5 and bad[name] > ELSEWHERE * times
+    ]
+
+
 def misfits(graph: JointGraph) -> list[tuple[float, int]]:
     """For each robot the share of its sightings that do not fit, and how many there are."""
     bad, total = np.zeros(len(graph.members), int), np.zeros(len(graph.members), int)
     for piece in graph.pieces:
-        poses = graph.members[piece.member].poses[piece.at]
-        away = graph.xy[piece.label] - poses[:, :2]
-        reach = np.hypot(away[:, 0], away[:, 1])
-        turn = wrap(np.arctan2(away[:, 1], away[:, 0]) - poses[:, 2])
-        seen = piece.track.sightings
-        off = (reach - [s.range for s in seen]) / [s.sigma_range for s in seen]
-        aside = wrap(turn - [s.bearing for s in seen]) / [s.sigma_bearing for s in seen]
-        bad[piece.member] += int((off**2 + aside**2 > 16).sum())
-        total[piece.member] += len(seen)
+        bad[piece.member] += int(_misfit(graph, piece).sum())
+        total[piece.member] += len(piece.track.sightings)
     return [(float(b / max(t, 1)), int(t)) for b, t in zip(bad, total, strict=True)]
+
+
+def _misfit(graph: JointGraph, piece: Piece) -> NDArray[np.bool_]:
+    """(k,) which sightings of a track lie beyond four standard deviations."""
+    poses = graph.members[piece.member].poses[piece.at]
+    away = graph.xy[piece.label] - poses[:, :2]
+    reach = np.hypot(away[:, 0], away[:, 1])
+    turn = wrap(np.arctan2(away[:, 1], away[:, 0]) - poses[:, 2])
+    seen = piece.track.sightings
+    off = (reach - [s.range for s in seen]) / [s.sigma_range for s in seen]
+    aside = wrap(turn - [s.bearing for s in seen]) / [s.sigma_bearing for s in seen]
+    return np.asarray(off**2 + aside**2 > 16)
 
 
 def bending(member: Member) -> float:

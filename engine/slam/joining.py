@@ -12,7 +12,7 @@ from itertools import count
 
 from symboslam.engine.slam.association import Association
 from symboslam.engine.slam.beliefs import ClassBeliefs
-from symboslam.engine.slam.consistency import Doubt, doubts, vagueness
+from symboslam.engine.slam.consistency import Doubt, doubts, names_of_several, vagueness
 from symboslam.engine.slam.edge_landmarks import Known
 from symboslam.engine.slam.edge_map import EdgeMap
 from symboslam.engine.slam.joint import JointGraph, Member
@@ -104,7 +104,7 @@ class Joining:
             self._add([number])
         self._look()
         self._repair()
-        self.vague = vagueness(self.graph, self._scale.reach)
+        self.vague = vagueness(self.graph, self._scale.reach) + names_of_several(self.graph)
 
     def said(self) -> list[str]:
         """Why the map should not be trusted, one sentence each."""

@@ -178,15 +178,14 @@ class Area:
     def inside(self, xy: Floats) -> Bools:
         """(k,) which of (k, 2) points lie in the extent, its border included."""
         low, high = np.array(self.extent[:2]), np.array(self.extent[2:])
-        within: Bools = ((xy >= low) & (xy <= high)).all(1)
+        within: Bools = np.all((xy >= low) & (xy <= high), axis=1)
         return within
 
     def blocked(self, xy: Floats) -> Bools:
         """(k,) which of (k, 2) points lie in an obstacle."""
-        found: Bools = np.zeros(len(xy), bool)
-        for shape in self.obstacles:
-            np.logical_or(found, shape.has(xy), out=found)
-        return found
+        found = [shape.has(xy) for shape in self.obstacles]
+        any_of: Bools = np.any([np.zeros(len(xy), bool), *found], axis=0)
+        return any_of
 
     def clipped(self, x: float, y: float) -> tuple[float, float]:
         """The nearest point of the extent."""

@@ -56,7 +56,7 @@ class Boustrophedon(Search):
         self._work: list[_Work] | None = None
         self._lost: set[int] = set()
         self._filler = Frontier(area, seed)
-        self._tolerance = min(max(area.reach / 8, area.speed / 2), area.sensor_width / 2)
+        self._tolerance = min(max(area.reach / 20, area.speed / 2), area.sensor_width / 2)
         self._ahead = max(area.reach / 2, 2 * area.speed)
         self._skip = area.reach / 2
 
@@ -195,9 +195,9 @@ class Boustrophedon(Search):
         y = ay + uy * along[:, None] + ux * across
         xy = np.column_stack([x.ravel(), y.ravel()])
         row, column = grid.cells_of(xy)
-        unseen = grid.missing[row, column] & self.area.inside(xy)
-        result: Bools = unseen.reshape(len(ways), -1).any(1)
-        return result
+        unseen: Bools = np.logical_and(grid.missing[row, column], self.area.inside(xy))
+        across_any: Bools = np.any(unseen.reshape(len(ways), -1), axis=1)
+        return across_any
 
 
 def _place(swarm: Swarm, robot: int) -> Place:

@@ -22,7 +22,7 @@ def swept(
 ) -> Bools:
     """Which points a robot saw on the straight way from one pose to the next.
 
-    Exact for a full circle. A sector is looked at every fifth of the reach and every 0.1 radians.
+    Exact for a full circle. Sectors are looked at every twentieth of the reach and 0.1 radians.
 
     Args:
         xy: (k, 2) metres.
@@ -44,7 +44,7 @@ def swept(
         near: Bools = x * x + y * y <= reach * reach
         return near
     turn = math.remainder(float(after[2] - before[2]), 2 * math.pi)
-    count = 1 + math.ceil(max(length / (reach / 5), abs(turn) / 0.1))
+    count = 1 + math.ceil(max(length / (reach / 20), abs(turn) / 0.1))
     share = np.linspace(0.0, 1.0, count)[:, None]
     x, y = x - share * dx, y - share * dy
     heading = float(before[2]) + share * turn

@@ -6,10 +6,12 @@ from where others are going ("Frontier-led swarming", arXiv 2111.14295, joins th
 
 from __future__ import annotations
 
+import math
 from typing import ClassVar
 
 import numpy as np
 from scipy.ndimage import binary_dilation
+from shapely import LinearRing, box, line_interpolate_point
 
 from symboslam.sim_bridge.search._base import Goals, Search
 from symboslam.sim_bridge.search.area import Area, Bools, Floats
@@ -23,7 +25,10 @@ _KEEP = 60.0  # seconds after which a goal is chosen anew in any case
 
 
 class Frontier(Search):
-    """The nearest frontier of the own Voronoi cell; when there is none, the nearest of all."""
+    """The nearest frontier of the own Voronoi cell; when there is none, the nearest of all.
+
+    When all was seen robots look again, along the edge first, as cells are seen by their middles.
+    """
 
     name: ClassVar[str] = "frontier"
 
@@ -32,6 +37,13 @@ class Frontier(Search):
         self._goal: Goals = [None] * area.robots
         self._since = [0.0] * area.robots
         self._refused: Bools | None = None
+        self._done = False
+        inset = min(area.reach / 2, area.width / 4, area.height / 4)
+        min_x, min_y, max_x, max_y = area.extent
+        ring = LinearRing(box(min_x + inset, min_y + inset, max_x - inset, max_y - inset).exterior)
+        places = line_interpolate_point(ring, np.arange(0.0, ring.length, 4 * inset))
+        self._edge: list[tuple[float, float]] = [(p.x, p.y) for p in places]
+        self._near = inset / 2
 
     def _goals(self, swarm: Swarm) -> Goals:
         return self.goals_of(swarm, swarm.working)
@@ -57,6 +69,8 @@ class Frontier(Search):
         goal = self._goal[robot]
         if goal is None or swarm.gave_up[robot] or swarm.time - self._since[robot] > _KEEP:
             return True
+        if self._done:
+            return goal.distance_from(*swarm.poses[robot, :2].tolist()) < self._near
         row, column = swarm.coverage.cells_of(np.array([[goal.x, goal.y]]))
         return bool(swarm.coverage.seen[row[0], column[0]])
 
@@ -77,7 +91,20 @@ class Frontier(Search):
             xy, mine = self._own(swarm, robots, robot, self._candidates(swarm, None))
         if len(xy):
             self._goal[robot] = self._best(swarm, robot, xy)
-            self._since[robot] = swarm.time
+        else:
+            self._done = True
+            self._goal[robot] = self._patrol(swarm, robot)
+        self._since[robot] = swarm.time
+
+    def _patrol(self, swarm: Swarm, robot: int) -> Goal:
+        """Where to look again when all cells were seen: along the edge, then anywhere."""
+        x, y = swarm.poses[robot, :2].tolist()
+        if self._edge:
+            near = [math.dist((x, y), place) for place in self._edge]
+            return Goal(*self._edge.pop(near.index(min(near))))
+        min_x, min_y, max_x, max_y = self.area.extent
+        u, v = self.rng.random(2).tolist()
+        return Goal(min_x + u * (max_x - min_x), min_y + v * (max_y - min_y))
 
     def _candidates(self, swarm: Swarm, middle: Floats | None) -> Floats:
         """(k, 2) unseen cells that border on seen ones; where there are none, any unseen.
@@ -92,10 +119,9 @@ class Frontier(Search):
             corners = np.array([middle - far, middle + far])
             (south, north), (west, east) = grid.cells_of(corners)
             rows, columns = slice(int(south), int(north) + 1), slice(int(west), int(east) + 1)
-        missing = (
-            grid.free[rows, columns] & ~grid.seen[rows, columns] & ~self._refused[rows, columns]
-        )
-        border = missing & binary_dilation(grid.seen[rows, columns], _PLUS)
+        seen = grid.seen[rows, columns]
+        missing = grid.free[rows, columns] & ~seen & ~self._refused[rows, columns]
+        border = missing & binary_dilation(seen, _PLUS)
         some = border if middle is not None or border.any() else missing
         row, column = np.nonzero(some)
         return np.column_stack([grid.x[columns][column], grid.y[rows][row]])

@@ -66,7 +66,8 @@ def lanes_of(block: Extent, area: Area, along_x: bool) -> Lanes:
     step = (max_y - min_y) / count
     inset = 0.0
     if area.fov >= 2 * math.pi - 1e-9:
-        inset = 0.95 * math.sqrt(max(area.reach**2 - (step / 2) ** 2, 0.0))
+        corner = math.sqrt(max(area.reach**2 - (step / 2) ** 2, 0.0))
+        inset = max(corner - area.speed / 2, 0.0)  # robots turn a little before the end
     inset = min(inset, (max_x - min_x) / 2)
     made = []
     for number in range(count):
