@@ -82,6 +82,11 @@ class CollectiveMap:
             if run.missing:
                 numbers = ", ".join(str(n) for n in run.missing[:5])
                 said.append(f"{run.name}: increments {numbers} are missing; later ones wait")
+            if run.misplaced:
+                said.append(
+                    f"{run.name}: increments that do not begin where the one before ended, left "
+                    f"out: {run.misplaced}"
+                )
             for label, times in sorted(run.unknown.items()):
                 said.append(f"{run.name}: class {label} is not known; left out {times} sightings")
         return said

@@ -59,6 +59,7 @@ class KeyPoses:
         self._waiting: list[Row] = []
         self._rows = 0
         self.problems: Counter[str] = Counter()
+        self._said: set[tuple[object, ...]] = set()
 
     @property
     def key_odometry(self) -> Planar:
@@ -110,10 +111,19 @@ class KeyPoses:
             self.problems["measurements whose range or bearing cannot be, left out"] += 1
         elif not 0 < confidence <= 1:
             self.problems["measurements with a confidence outside (0, 1], left out"] += 1
+        elif self._repeated(time, range, bearing, feature, key):
+            self.problems["measurements that repeat another, left out"] += 1
         else:
             heapq.heappush(self._waiting, (time, row, range, bearing, feature, confidence, key))
             return self._settled(self._to[0])
         return []
+
+    def _repeated(self, time: float, *measured: object) -> bool:
+        """Whether the very same was measured at a time."""
+        what = time, *map(str, measured)
+        known = what in self._said
+        self._said.add(what)
+        return known
 
     def fix(self, time: float, x: float, y: float, sigma: float) -> None:
         """A position from outside, of the key pose before it."""

@@ -40,6 +40,7 @@ class Run:
         finished: nothing more comes.
         unknown: names of classes that are not known -> sightings left out.
         closures: relative poses from outside, if any.
+        misplaced: increments left out, as their first key pose is not the next.
     """
 
     def __init__(
@@ -57,7 +58,7 @@ class Run:
         self.finished = False
         self.unknown: Counter[str] = Counter()
         self.closures: Closures | None = None
-        self.rows = 0
+        self.rows = self.misplaced = 0
         self._classes = {label: n for n, label in enumerate(classes)}
         self._dynamic, self._similarity = dynamic, similarity
         self._waiting: dict[int, EdgeIncrement] = {}
@@ -82,6 +83,10 @@ class Run:
         return True
 
     def _append(self, increment: EdgeIncrement) -> None:
+        self.finished = self.finished or increment.last
+        if increment.first != len(self.graph):
+            self.misplaced += 1
+            return
         if increment.sequence == 0:
             self.start, self.start_sigma = increment.start, increment.start_sigma
         for time, step, sigma in zip(
@@ -96,7 +101,6 @@ class Run:
             increment.fix_pose.tolist(), increment.fix.tolist(), strict=True
         ):
             self.graph.fixes.append(Fix(pose, x, y, sigma))
-        self.finished = self.finished or increment.last
 
     def _sighting(self, increment: EdgeIncrement, n: int) -> Sighting | None:
         label = str(increment.feature[n])

@@ -235,6 +235,13 @@ def _detections(
     good &= _left_out(table, negative, "with a range below 0 or infinity", notes)
     blind = good & np.isnan(reach) & np.isnan(bearing)
     good &= _left_out(table, blind, "with neither range nor bearing", notes)
+    for missing, kept, column in ((reach, "bearing", "range"), (bearing, "range", "bearing")):
+        partial = int(np.isnan(missing[good]).sum())
+        if partial:
+            notes.append(
+                f"{table.path.name}: {count(partial, 'row')} without a {column} (empty or NaN): "
+                f"read as a {kept} alone"
+            )
     late = int((time[good] > odometry.time[-1]).sum())
     if late:
         notes.append(

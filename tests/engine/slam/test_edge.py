@@ -1,6 +1,7 @@
 """EdgeMapper and what CollectiveMap makes of its increments, in whatever order they come."""
 
 import random
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -121,3 +122,15 @@ def test_fixes_that_cannot_be_are_told() -> None:
     last = mapper.increment(last=True)
     assert last is not None
     assert (last.last, len(last.time)) == (True, 0)
+
+
+def test_an_increment_that_does_not_begin_where_the_one_before_ended_is_left_out(
+    mission: Mission,
+) -> None:
+    one = increments(mission, mission.robots[0])
+    shifted = replace(one[2], first=one[2].first + 7, pose=one[2].pose + 7)
+    found = collective(mission, [*one[:2], shifted])
+    assert found.notes == [
+        "robot 1: increments that do not begin where the one before ended, left out: 1"
+    ]
+    assert found.solve().trajectories["robot 1"].time[-1] == one[1].time[-1]

@@ -211,3 +211,12 @@ def test_rows_are_numbered_as_they_come_even_those_left_out() -> None:
     found.sighting(0, 1, 0, 0, 0)
     seen: list[Sighting] = found.sighting(1, 1, 0, 0, 1)
     assert [s.row for s in seen] == [1]
+
+
+def test_the_same_again_is_left_out_and_told() -> None:
+    found = driven(keys(), 4)
+    for bearing in (0.1, 0.1, 0.2, math.nan, math.nan):
+        found.sighting(2, 5, bearing, 0, 0.9)
+    found.finish()
+    assert len(found.graph.sightings) == 3
+    assert told(found) == {"measurements that repeat another, left out": 2}

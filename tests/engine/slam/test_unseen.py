@@ -12,7 +12,7 @@ STRAIGHT = [(n, 0, 0) for n in range(60)]
 AHEAD = {n: [(n, n + 12, -4), (n + 1, n + 12, 4), (n + 2, n + 12, 0)] for n in range(40)}
 """Things 10 to 12 m ahead, seen at bearings on both sides."""
 IN_VIEW = 34
-"""Thing n is at n + 12, in view (nearer than 8.9 m) from key poses n + 4 to n + 11, of which the last
+"""Thing n is at n + 12, in view (nearer than 8.9 m) from key poses n + 4 to n + 11; the last one
 that saw something is 41: five of them up to n = 33."""
 NEAR = 100
 """A thing on the way."""

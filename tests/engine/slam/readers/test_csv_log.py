@@ -61,6 +61,8 @@ def test_a_folder_by_hand(write: Write) -> None:
     assert log.fixes.xy.tolist() == [[9, 19], [10, 20]]
     assert log.fixes.sigma.tolist() == [3, 0.5]
     assert notes == [
+        "detections.csv: 1 row without a range (empty or NaN): read as a bearing alone",
+        "detections.csv: 1 row without a bearing (empty or NaN): read as a range alone",
         "detections.csv: time goes back at 1 row, by up to 0.5 s; rows were sorted by time",
         "fixes.csv: time goes back at 1 row, by up to 1 s; rows were sorted by time",
     ]
