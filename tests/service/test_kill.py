@@ -17,6 +17,8 @@ from tests.service.conftest import ADMIN, UPDATE
 from tests.service.kept import graphs_of, half_written, same
 from tests.service.test_durability import serve
 
+pytestmark = pytest.mark.proof
+
 SIDE = 900.0
 CLASSES = ("House", "Factory", "BusStop", "Tree", "ConvenienceStore", "Warehouse")
 ENVIRONMENTS = ("Residential", "Industrial", "Commercial", None)

@@ -211,6 +211,7 @@ def schemathesis(service: Service, folder: Path, examples: int, token: bool) -> 
     assert service.client.get("/readyz").status_code == 200
 
 
+@pytest.mark.proof
 def test_schemathesis_finds_nothing(described: Service, tmp_path: Path) -> None:
     schemathesis(described, tmp_path, 5, True)
 

@@ -65,6 +65,7 @@ def same(ours: Any, theirs: Any) -> None:
                 assert found[metric] == pytest.approx(c[metric], abs=1e-9), (mode, name, metric)
 
 
+@pytest.mark.proof
 def test_same_as_the_benchmark_on_all_of_its_areas(
     benchmark: Any, tmp_path: Path, knowledge: Knowledge
 ) -> None:

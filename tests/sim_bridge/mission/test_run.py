@@ -113,6 +113,7 @@ def contents(folder: Path) -> dict[str, bytes]:
     return {f.name: f.read_bytes() for f in folder.iterdir() if f.name != "metrics.json"}
 
 
+@pytest.mark.proof
 def test_the_same_seed_gives_the_same_run(tmp_path: Path) -> None:
     one, other, third = (tmp_path / name for name in ("one", "other", "third"))
     run("demo", *SHORT, "--record", one, "--gps")
