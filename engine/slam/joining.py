@@ -146,7 +146,10 @@ class Joining:
             Whether it is kept.
         """
         before = self.graph, list(self.edges), list(self._members), self.doubts
-        kept = [(m, m.poses, [piece.label for piece in m.pieces]) for m in self._members]
+        kept = [
+            (m, m.poses, m.scale, m.turn, [piece.label for piece in m.pieces])
+            for m in self._members
+        ]
         run = self.runs[number]
         self._progress(f"mapping {run.name} again", 0.5)
         others = self._graph([self._members[n] for n in self.placed if n != number])
@@ -173,8 +176,8 @@ class Joining:
         if self._excess(*self.placed) < excess:
             return True
         self.graph, self.edges, self._members, self.doubts = before
-        for member, poses, labels in kept:
-            member.poses = poses
+        for member, poses, scale, turn, labels in kept:
+            member.poses, member.scale, member.turn = poses, scale, turn
             for piece, label in zip(member.pieces, labels, strict=True):
                 piece.label = label
         for at, member in enumerate(self.graph.members):

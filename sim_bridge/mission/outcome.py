@@ -23,7 +23,8 @@ from symboslam.engine.slam.slam_map import SlamMap
 from symboslam.engine.slam.writers import write_slam_map
 from symboslam.errors import InputError
 from symboslam.reasoning.knowledge import Knowledge
-from symboslam.sim_bridge.mission.mission import MAPPING, Outcome, Team
+from symboslam.sim_bridge.mission.mission import Outcome
+from symboslam.sim_bridge.mission.team import MAPPING, Team
 from symboslam.sim_bridge.worlds.truth import zones_geojson
 from symboslam.sim_bridge.worlds.world import World
 

@@ -16,7 +16,8 @@ from typing import Any, TextIO
 from symboslam.engine.writers.atomic import atomic_file
 from symboslam.errors import OutputError
 from symboslam.sim_bridge.mission.journal import Journal, Seen
-from symboslam.sim_bridge.mission.mission import Listener, Team, Tick
+from symboslam.sim_bridge.mission.mission import Listener, Tick
+from symboslam.sim_bridge.mission.team import Team
 from symboslam.sim_bridge.worlds.truth import landmarks_geojson, write_geojson, zones_geojson
 from symboslam.sim_bridge.worlds.world_file import write_world
 

@@ -48,8 +48,8 @@ def get_search(name: str) -> type[Search]:
         return _registered[name]
     if name not in _OURS:
         near = get_close_matches(name.casefold(), searches(), n=3, cutoff=0.5)
-        hint = f"did you mean {' or '.join(near)}? " if near else ""
-        raise UnknownNameError(f"no search {name!r}; {hint}There are: {', '.join(searches())}")
+        hint = f"did you mean {' or '.join(near)}? There" if near else "there"
+        raise UnknownNameError(f"no search {name!r}; {hint} are: {', '.join(searches())}")
     module, _, attribute = _OURS[name].partition(":")
     found: type[Search] = getattr(import_module(module), attribute)
     return found

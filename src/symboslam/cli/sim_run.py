@@ -158,9 +158,10 @@ def run(
     import_pybullet()
     made, odd = get_world(world, world_seed)
     get_search(search)
-    from symboslam.sim_bridge.mission.mission import MissionSettings, assemble, fly
+    from symboslam.sim_bridge.mission.mission import fly
     from symboslam.sim_bridge.mission.outcome import conclude, mission_figures
     from symboslam.sim_bridge.mission.record import Recorder
+    from symboslam.sim_bridge.mission.team import MissionSettings, assemble
 
     settings = MissionSettings(
         robots, str(robot), str(detector), 60 * minutes, seed, window=gui,

@@ -6,7 +6,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from symboslam.engine.slam.consistency import Doubt, bending, doubts, misfits, vagueness
+from symboslam.engine.slam.consistency import (
+    Doubt,
+    bending,
+    doubts,
+    misfits,
+    names_of_several,
+    vagueness,
+)
 from symboslam.engine.slam.joint import JointGraph, Member
 from symboslam.engine.slam.log import ROBOT
 from symboslam.engine.slam.pose_graph import Sighting
@@ -95,3 +102,32 @@ def test_a_map_that_fits_but_is_vague_is_doubted() -> None:
     assert vagueness(graph, 10.2) == []
     graph.covariance[9] = np.eye(2)  # two of ten are no more than a fifth
     assert vagueness(graph, 10.0) == []
+
+
+@pytest.mark.parametrize(("elsewhere", "told"), [(3, False), (4, True)])
+def test_a_name_that_is_read_in_several_places_is_told(
+    robot: Any, elsewhere: int, told: bool
+) -> None:
+    there = [(n, 20, 4) for n in range(10 - elsewhere)]
+    other = [(n, 20, -40) for n in range(10 - elsewhere, 10)]
+    member: Member = robot("r", STRAIGHT, {0: there, 1: other})
+    for piece in member.pieces:
+        piece.label, piece.track.key = 0, "EXIT"
+    graph = JointGraph([member], SlamSettings(), 5.0)
+    graph.xy[0] = np.array([20.0, 4.0])
+    sentence = "what is named 'EXIT' is not one thing: 4 of 10 sightings of it are somewhere else"
+    assert names_of_several(graph) == ([sentence] if told else [])
+
+
+def test_landmarks_in_view_that_were_never_seen_are_doubted(robot: Any) -> None:
+    own = {n: [(n + k, n + 12, 4 * (k - 1)) for k in range(3)] for n in range(40)}
+    other = {100 + n: [(n + k, n + 12.5, 4 * (k - 1)) for k in range(3)] for n in range(40)}
+    # Each has 34 of its own in view five times; "one" 34 of the other's, "two", whose view reaches
+    # 9.2 m and not 8.9 m, 35.
+    for name, found in zip(
+        ("one", "two"),
+        said(robot("one", STRAIGHT, own), robot("two", STRAIGHT, other)),
+        strict=True,
+    ):
+        (sentence,) = [each for each in found if "in view" in each]
+        assert sentence.startswith(f"{name}: 69 of 103 times a landmark was in view again")

@@ -104,7 +104,7 @@ def test_shapes_are_checked() -> None:
 def test_names() -> None:
     with pytest.raises(UnknownNameError, match="did you mean frontier"):
         get_search("fronteir")
-    with pytest.raises(UnknownNameError, match="There are: random-walk"):
+    with pytest.raises(UnknownNameError, match="there are: random-walk"):
         get_search("")
     with pytest.raises(InputError, match="seed"):
         search_of("frontier", Area(SQUARE, START), -1)
