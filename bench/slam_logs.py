@@ -108,9 +108,7 @@ def online(poses: int, tiny: bool = False) -> str:
     settings = SlamSettings()
     mission = simulate(World(robots=1, poses=poses), 0)
     log, graph = mission.robots[0], PoseGraph("robot 1")
-    keys = KeyPoses(
-        graph, log.odometry.noise, log.seen.sigma_range, log.seen.sigma_bearing, settings.interval
-    )
+    keys = KeyPoses(graph, log.odometry.noise, settings.interval)
     edge = EdgeMap(
         graph,
         ClassBeliefs(mission.similarity),

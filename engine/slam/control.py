@@ -55,13 +55,7 @@ class CollectiveMap:
         """Take over the whole log of one robot."""
         run = self._run(log.name, f"log {len(self._runs)}")
         run.start, run.start_sigma, run.closures = log.start, log.start_sigma, log.closures
-        keys = KeyPoses(
-            run.graph,
-            log.odometry.noise,
-            log.seen.sigma_range,
-            log.seen.sigma_bearing,
-            self._settings.interval,
-        )
+        keys = KeyPoses(run.graph, log.odometry.noise, self._settings.interval)
         total = len(log.odometry) + 1
         for n, _ in enumerate(replay(log, keys)):
             if n % 1000 == 0:

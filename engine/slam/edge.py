@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from symboslam.engine.slam.increment import EdgeIncrement
 from symboslam.engine.slam.joining import Joining, silent
 from symboslam.engine.slam.key_poses import KeyPoses
-from symboslam.engine.slam.log import ROBOT, OdometryNoise, Pose
+from symboslam.engine.slam.log import ROBOT, Floats, OdometryNoise, Pose
 from symboslam.engine.slam.outcome import outcome
 from symboslam.engine.slam.run import Run
 from symboslam.engine.slam.settings import SlamSettings
@@ -30,8 +30,8 @@ class EdgeMapper:
         start: where it begins, in the collective frame; None if not known.
         start_sigma: standard deviations of that.
         noise: of the odometry.
-        sigma_range: metres.
-        sigma_bearing: radians.
+        sigma_range: metres, of sightings that do not say it.
+        sigma_bearing: radians, likewise.
         settings: of map building.
 
     Attributes:
@@ -60,9 +60,8 @@ class EdgeMapper:
         self._name, self._robot = run or robot, robot
         self.graph = self._run.graph
         noise = noise or OdometryNoise()
-        self._keys = KeyPoses(
-            self.graph, noise, sigma_range, sigma_bearing, self._settings.interval
-        )
+        self._keys = KeyPoses(self.graph, noise, self._settings.interval)
+        self._sigma = sigma_range, sigma_bearing
         self._sequence = self._poses = self._sightings = self._told = 0
 
     @property
@@ -78,6 +77,12 @@ class EdgeMapper:
             return None
         x, y, heading = edge.estimate.tolist()
         return x, y, heading
+
+    @property
+    def covariance(self) -> Floats | None:
+        """(3, 3) of `pose`, in the robot's own frame; None before the first update of the map."""
+        edge = self._run.edge_map()
+        return None if edge is None else edge.latest_covariance()
 
     @property
     def key_odometry(self) -> Pose:
@@ -97,9 +102,11 @@ class EdgeMapper:
         feature: int,
         confidence: float,
         key: str = "",
+        sigma: tuple[float, float] | None = None,
     ) -> None:
         """What it saw; NaN for a range or a bearing that was not measured, -1 for a robot."""
-        self._keys.sighting(time, range, bearing, feature, confidence, key)
+        sigma = sigma or self._sigma
+        self._keys.sighting(time, range, bearing, feature, confidence, key, *sigma)
         self._run.rows += 1
 
     def fix(self, time: float, x: float, y: float, sigma: float) -> None:

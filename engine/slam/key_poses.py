@@ -26,8 +26,8 @@ TINY = 1e-6
 """Seconds; times since 1970 are no finer."""
 
 Planar = tuple[float, float, float]
-Row = tuple[float, int, float, float, int, float, str]
-"""Time, number, range, bearing, class, confidence, key."""
+Row = tuple[float, int, float, float, int, float, str, tuple[float, float]]
+"""Time, number, range, bearing, class, confidence, key, deviations of range and bearing."""
 
 
 class KeyPoses:
@@ -36,8 +36,6 @@ class KeyPoses:
     Args:
         graph: is filled.
         noise: of the odometry.
-        sigma_range: metres.
-        sigma_bearing: radians.
         interval: seconds between key poses, at least.
 
     Attributes:
@@ -48,12 +46,9 @@ class KeyPoses:
         self,
         graph: PoseGraph,
         noise: OdometryNoise,
-        sigma_range: float,
-        sigma_bearing: float,
         interval: float,
     ) -> None:
         self.graph, self._noise, self._interval = graph, noise, interval
-        self._sigma = sigma_range, sigma_bearing
         self._from: tuple[float, Planar] = (-math.inf, (0.0, 0.0, 0.0))
         self._to = self._key = self._from
         self._waiting: list[Row] = []
@@ -96,25 +91,32 @@ class KeyPoses:
         bearing: float,
         feature: int,
         confidence: float,
-        key: str = "",
+        key: str,
+        sigma_range: float,
+        sigma_bearing: float,
         row: int | None = None,
     ) -> list[Sighting]:
         """What the robot saw; returns the sightings that can be placed.
 
         Without ``row`` the sightings are numbered as they come.
         """
+        sigma = sigma_range, sigma_bearing
         row = self._rows if row is None else row
         self._rows = row + 1
         if not math.isfinite(time) or (math.isnan(range) and math.isnan(bearing)):
             self.problems["measurements without time, or without range and bearing, left out"] += 1
         elif math.isinf(range) or math.isinf(bearing) or range <= 0:
             self.problems["measurements whose range or bearing cannot be, left out"] += 1
+        elif not (_sure(range, sigma_range) and _sure(bearing, sigma_bearing)):
+            self.problems["measurements with a deviation not above 0, left out"] += 1
         elif not 0 < confidence <= 1:
             self.problems["measurements with a confidence outside (0, 1], left out"] += 1
         elif self._repeated(time, range, bearing, feature, key):
             self.problems["measurements that repeat another, left out"] += 1
         else:
-            heapq.heappush(self._waiting, (time, row, range, bearing, feature, confidence, key))
+            heapq.heappush(
+                self._waiting, (time, row, range, bearing, feature, confidence, key, sigma)
+            )
             return self._settled(self._to[0])
         return []
 
@@ -159,7 +161,7 @@ class KeyPoses:
         return found
 
     def _carried(self, row: Row) -> Sighting:
-        time, number, reach, bearing, feature, confidence, key = row
+        time, number, reach, bearing, feature, confidence, key, sigma = row
         if time >= self._key[0] - TINY:
             at = self._odometry_at(min(time, self._to[0]))
             if (math.isnan(reach) or math.isnan(bearing)) and _moved(self._key[1], at):
@@ -178,9 +180,7 @@ class KeyPoses:
             reach, bearing = math.hypot(x, y), math.atan2(y, x)
         else:
             bearing += turn
-        sighting = Sighting(
-            number, time, pose, reach, bearing, *self._sigma, feature, confidence, key
-        )
+        sighting = Sighting(number, time, pose, reach, bearing, *sigma, feature, confidence, key)
         self.graph.sightings.append(sighting)
         return sighting
 
@@ -198,6 +198,11 @@ class KeyPoses:
         )
 
 
+def _sure(value: float, sigma: float) -> bool:
+    """Whether a deviation can be, or is of what was not measured."""
+    return math.isnan(value) or 0 < sigma < math.inf
+
+
 def _step(one: Planar, other: Planar) -> Planar:
     """From one pose to another, in the frame of the first."""
     cos, sin = math.cos(one[2]), math.sin(one[2])
@@ -213,8 +218,11 @@ def _moved(one: Planar, other: Planar) -> bool:
 def replay(log: RobotLog, keys: KeyPoses) -> Iterator[list[Sighting]]:
     """A log as it came, row by row; yields the sightings after each row of odometry."""
     seen = log.seen
-    columns = (seen.time, seen.range, seen.bearing, seen.feature, seen.confidence, seen.key)
-    rows: list[tuple[float, float, float, int, float, str]] = list(
+    columns = (
+        seen.time, seen.range, seen.bearing, seen.feature, seen.confidence, seen.key,
+        *seen.sigmas.T,
+    )  # fmt: skip
+    rows: list[tuple[float, float, float, int, float, str, float, float]] = list(
         zip(*(column.tolist() for column in columns), strict=True)
     )
     order: list[int] = np.argsort(seen.time, kind="stable").tolist()

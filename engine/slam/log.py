@@ -72,8 +72,8 @@ class Measurements:
         feature: (m,) position in ``Mission.classes``, or ``ROBOT``.
         confidence: (m,) of the class, in (0, 1].
         key: (m,) what names the thing seen beyond doubt, such as the text of a sign; "" for none.
-        sigma_range: metres.
-        sigma_bearing: radians.
+        sigma_range: metres; one for all rows, or (m,).
+        sigma_bearing: radians; one for all rows, or (m,).
     """
 
     time: Floats
@@ -82,11 +82,18 @@ class Measurements:
     feature: Ints
     confidence: Floats
     key: NDArray[np.object_]
-    sigma_range: float = 0.5
-    sigma_bearing: float = 0.02
+    sigma_range: float | Floats = 0.5
+    sigma_bearing: float | Floats = 0.02
 
     def __len__(self) -> int:
         return len(self.time)
+
+    @property
+    def sigmas(self) -> Floats:
+        """(m, 2) standard deviations of range (metres) and bearing (radians)."""
+        found = np.empty((len(self), 2))
+        found[:, 0], found[:, 1] = self.sigma_range, self.sigma_bearing
+        return found
 
     def take(self, index: NDArray[np.bool_] | Ints) -> Measurements:
         """The rows at ``index``."""
@@ -97,9 +104,13 @@ class Measurements:
             self.feature[index],
             self.confidence[index],
             self.key[index],
-            sigma_range=self.sigma_range,
-            sigma_bearing=self.sigma_bearing,
+            sigma_range=_rows(self.sigma_range, index),
+            sigma_bearing=_rows(self.sigma_bearing, index),
         )
+
+
+def _rows(sigma: float | Floats, index: NDArray[np.bool_] | Ints) -> float | Floats:
+    return sigma[index] if isinstance(sigma, np.ndarray) else sigma
 
 
 @dataclass(frozen=True)

@@ -39,6 +39,7 @@ class Mapper(Protocol):
         feature: int,
         confidence: float,
         key: str,
+        sigma: tuple[float, float] | None,
         /,
     ) -> None:
         """What it saw."""
@@ -113,7 +114,7 @@ class EdgeAgent:
             self.unknown[seen.feature[:80]] += 1
             return
         self._mapper.sighting(
-            seen.time, seen.range, seen.bearing, feature, seen.confidence, seen.key
+            seen.time, seen.range, seen.bearing, feature, seen.confidence, seen.key, seen.sigma
         )
 
     def _put(self, increment: EdgeIncrement | None) -> None:

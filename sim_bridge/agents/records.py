@@ -43,6 +43,7 @@ class SightingRecord:
         feature: its class by name; `ROBOT_CLASS` for a robot.
         confidence: of the class, in (0, 1].
         key: what names it beyond doubt, such as the text of a sign; "" for none.
+        sigma: standard deviations of range (metres) and bearing (radians); None for the robot's.
     """
 
     time: float
@@ -51,6 +52,7 @@ class SightingRecord:
     feature: str
     confidence: float = 1.0
     key: str = ""
+    sigma: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -74,7 +76,7 @@ Record = OdometryRecord | SightingRecord | FixRecord
 _MEMBERS = {
     "odometry": {"odometry"},
     "fix": {"fix"},
-    "class": {"class", "range", "bearing", "confidence", "key"},
+    "class": {"class", "range", "bearing", "confidence", "key", "sigma"},
 }
 
 
@@ -126,7 +128,17 @@ def _sighting(value: dict[str, Any], time: float) -> SightingRecord:
     confidence = _number(value, "confidence") if "confidence" in value else 1.0
     if not 0 < confidence <= 1:
         raise InputError("confidence is not in (0, 1]")
-    return SightingRecord(time, distance, bearing, feature, confidence, key)
+    sigma = _sigma(value["sigma"]) if value.get("sigma") is not None else None
+    return SightingRecord(time, distance, bearing, feature, confidence, key, sigma)
+
+
+def _sigma(found: object) -> tuple[float, float]:
+    if not isinstance(found, list) or len(found) != 2 or not all(map(_is_number, found)):
+        raise InputError("sigma is not two finite numbers")
+    of_range, of_bearing = map(float, found)
+    if min(of_range, of_bearing) <= 0:
+        raise InputError("sigma is not above 0")
+    return of_range, of_bearing
 
 
 def _is_number(value: object) -> bool:
@@ -195,12 +207,14 @@ def of_log(log: RobotLog, classes: tuple[str, ...]) -> Iterator[Record]:
         assert fixes is not None
         time, (x, y) = float(fixes.time[i]), fixes.xy[i].tolist()
         found.append((time, 1, FixRecord(time, x, y, float(fixes.sigma[i]))))
+    one_for_all = isinstance(seen.sigma_range, float) and isinstance(seen.sigma_bearing, float)
+    sigmas: list[list[float]] = seen.sigmas.tolist()
     for i in range(len(seen)):
         time, feature = float(seen.time[i]), int(seen.feature[i])
         name = ROBOT_CLASS if feature == ROBOT else classes[feature]
         sighting = SightingRecord(
             time, float(seen.range[i]), float(seen.bearing[i]), name, float(seen.confidence[i]),
-            str(seen.key[i]),
+            str(seen.key[i]), None if one_for_all else (sigmas[i][0], sigmas[i][1]),
         )  # fmt: skip
         found.append((time, 2, sighting))
     found.sort(key=lambda each: each[:2])

@@ -58,7 +58,11 @@ def read(
         tell(f"{len(log.closures.time)} relative poses from outside are left out")
     return of_log(log, mission.classes), {
         "start": log.start, "start_sigma": log.start_sigma, "noise": log.odometry.noise,
-        "sigma_range": log.seen.sigma_range, "sigma_bearing": log.seen.sigma_bearing,
+        **{
+            name: sigma
+            for name in ("sigma_range", "sigma_bearing")
+            if isinstance(sigma := getattr(log.seen, name), float)
+        },
     }  # fmt: skip
 
 

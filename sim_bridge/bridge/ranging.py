@@ -18,10 +18,13 @@ from symboslam.sim_bridge.bridge.settings import CameraSpec
 from symboslam.sim_bridge.objects.bullet import ROUND
 from symboslam.sim_bridge.worlds.sizes import SIZES
 
-SIGMA_RANGE = 0.8
-"""Metres, of most things; where another thing is in the way it is more, as it is for large ones."""
-SIGMA_BEARING = 0.02
-"""Radians: a third of a degree for the points of the picture, more for what is half hidden."""
+SIGMA_RANGE, SHARE_DEPTH = 0.7, 0.2
+"""Deviation of a range: metres, and a share of the mean of the class's length and width."""
+SIGMA_BEARING, SHARE_WIDTH = 0.01, 0.1
+"""Deviation of a bearing: radians, and the angle of that share of the mean side.
+
+The middle of a large thing looks different from each side, and stays wrong from picture to picture.
+"""
 AGREE = 2.0
 """A ray may measure so many times more or less than the height of the box tells."""
 FOOT = 0.8
@@ -41,10 +44,12 @@ class Measured:
     Attributes:
         range: metres to its middle; NaN if it could not be measured.
         bearing: radians to the left of the heading.
+        sigma: standard deviations of both; of the range if it was measured.
     """
 
     range: float
     bearing: float
+    sigma: tuple[float, float]
 
 
 def whole(box: Box, spec: CameraSpec) -> bool:
@@ -95,11 +100,18 @@ def measure(
     hits = scan.range[(scan.range > low) & (scan.range < high)]
     behind = half_depth(detection.kind)
     if len(hits):
-        return Measured(float(np.quantile(hits, 0.25)) + behind, bearing)
+        return _measured(float(np.quantile(hits, 0.25)) + behind, bearing, detection.kind)
     near, far = (ground / math.cos(bearing) for ground in foot_of(detection, spec))
     if far < GROUND and low <= (near + far) / 2 <= high:
-        return Measured((near + far) / 2 + behind, bearing)
-    return Measured(math.nan, bearing)
+        return _measured((near + far) / 2 + behind, bearing, detection.kind)
+    return Measured(math.nan, bearing, (math.nan, math.nan))
+
+
+def _measured(distance: float, bearing: float, kind: str) -> Measured:
+    side = (SIZES[kind].length + SIZES[kind].width) / 2
+    along = math.hypot(SIGMA_RANGE, SHARE_DEPTH * side)
+    across = math.hypot(SIGMA_BEARING, SHARE_WIDTH * side / distance)
+    return Measured(distance, bearing, (along, across))
 
 
 def half_depth(kind: str) -> float:

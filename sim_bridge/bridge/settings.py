@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class CameraSpec:
-    """A pinhole camera that looks ahead, level.
+    """A pinhole camera on a turning mount, level.
 
     Attributes:
         width: of the picture, in points.
@@ -18,6 +18,7 @@ class CameraSpec:
         near: nearest metres that are drawn.
         far: farthest metres that are drawn; beyond it nothing is seen.
         rate: pictures a second.
+        pan: where it looks, picture after picture, in radians to the left of the heading.
     """
 
     width: int = 320
@@ -27,6 +28,12 @@ class CameraSpec:
     near: float = 0.3
     far: float = 80.0
     rate: float = 2.0
+    pan: tuple[float, ...] = tuple(math.radians(pan) for pan in (0, 90, -90, 180))
+
+    @property
+    def field(self) -> float:
+        """Radians around the heading that are seen in one turn of the mount."""
+        return min(self.fov + 2 * max(abs(pan) for pan in self.pan), math.tau)
 
     @property
     def focal(self) -> float:
@@ -42,7 +49,7 @@ class CameraSpec:
 
 @dataclass(frozen=True)
 class LidarSpec:
-    """A planar lidar that scans the half circle ahead.
+    """A planar lidar that scans the half circle around where it is turned.
 
     Attributes:
         reach: farthest metres.

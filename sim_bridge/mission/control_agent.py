@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symboslam.sim_bridge.mission.edge_agent import EdgeAgent, Point
+from symboslam.sim_bridge.mission.leash import Leash
 from symboslam.sim_bridge.search._base import Search
 from symboslam.sim_bridge.search.coverage import Coverage
 from symboslam.sim_bridge.search.swarm import Goal, Swarm
@@ -19,6 +20,9 @@ SLOW = 3.0
 """A goal is given up after so many times the time that the straight way takes, and `GRACE`."""
 GRACE = 15.0
 """Seconds."""
+SCAN = 6.0
+"""Seconds in which robots stand and look around before they set out: what they see is what ties
+their map to their start."""
 CLOSE = 5.0
 """Metres from a goal that are there."""
 
@@ -39,6 +43,7 @@ class ControlAgent:
         self._bumps = [0] * len(agents)
         self._goal: list[Goal | None] = [None] * len(agents)
         self._until = [math.inf] * len(agents)
+        self._leash = [Leash() for _ in agents]
 
     def assign(self, time: float, seconds: float) -> dict[str, Point | None]:
         """Goals for the next ``seconds``; a robot with a target has it in ``EdgeAgent.target``."""
@@ -53,7 +58,13 @@ class ControlAgent:
                 way = goal.distance_from(x, y) / self._search.area.speed
                 self._until[n] = time + SLOW * way + GRACE
             self._goal[n] = goal
-            if goal is None:
+            back = self._leash[n].pull((x, y), agent.sigma)
+            if time < SCAN:
+                found[agent.name] = None
+            elif back is not None and not agent.lost:
+                self._until[n] += seconds
+                found[agent.name] = back
+            elif goal is None:
                 found[agent.name] = None
             elif goal.heading is not None:
                 turn = goal.heading

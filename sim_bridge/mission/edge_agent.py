@@ -59,6 +59,7 @@ class EdgeAgent:
         journal: what it drove and saw.
         targets: what it has seen of what stands still.
         target: what it approaches.
+        gaze: where its camera looked last, in radians to the left of its heading.
         bumps: how often it ran into something.
         stuck: whether it was stuck at the last tick.
         obstacles: where its lidar met something while it drove, in its own eyes, on a grid of
@@ -88,6 +89,8 @@ class EdgeAgent:
         self.targets = Targets()
         self.target: Target | None = None
         self.watch = Watch()
+        self.gaze = 0.0
+        self._pictures = 0
         self.bumps = 0
         self.stuck = False
         self.obstacles: set[Point] = set()
@@ -103,6 +106,14 @@ class EdgeAgent:
         estimate, odometry = self._anchor
         x, y, heading = compose(estimate, between(odometry, self._odometry.pose)).tolist()
         return x, y, heading
+
+    @property
+    def sigma(self) -> float:
+        """Metres along one axis by which it may be elsewhere, as its map was last solved."""
+        covariance = self.mapper.covariance
+        if covariance is None:
+            return 0.0
+        return math.sqrt(max(covariance[0, 0] + covariance[1, 1], 0.0) / 2)
 
     @property
     def lost(self) -> bool:
@@ -122,36 +133,52 @@ class EdgeAgent:
         self._others.show(others)
         if self.lost:
             return []
-        picture = self.camera.look(true)
+        self.gaze = self._gaze()
+        eye = (true[0], true[1], true[2] + self.gaze)
+        picture = self.camera.look(eye)
         if picture is None:
             return []
         kinds = {body: self._kinds[n] for body, n in self.scene.object_of.items()}
         found = []
         here = self.pose
         for detection in self._detector.detect(picture, kinds):
-            measured = measure(detection, self._lidar, true, self.camera.spec)
+            measured = measure(detection, self._lidar, eye, self.camera.spec)
             if measured is None:
                 continue
             ranged = math.isfinite(measured.range)
+            bearing = math.remainder(measured.bearing + self.gaze, math.tau)
             thing = ""
             if detection.body is not None:
                 thing = self.scene.stock.objects[self.scene.object_of[detection.body]].id
             if not SIZES[detection.kind].moves:
                 far = measured.range if ranged else expected_range(detection, self.camera.spec)
-                angle = here[2] + measured.bearing
+                angle = here[2] + bearing
                 x, y = here[0] + far * math.cos(angle), here[1] + far * math.sin(angle)
                 self.targets.see(detection.kind, x, y, far, ranged)
             if not ranged:
                 continue
             seen = Seen(
-                time, measured.range, measured.bearing, detection.kind, detection.confidence, thing
-            )
+                time, measured.range, bearing, detection.kind, detection.confidence,
+                measured.sigma, thing,
+            )  # fmt: skip
             self.mapper.sighting(
-                time, seen.range, seen.bearing, self._position[seen.kind], seen.confidence
-            )
+                time, seen.range, seen.bearing, self._position[seen.kind], seen.confidence,
+                sigma=seen.sigma,
+            )  # fmt: skip
             found.append(seen)
         self.journal.seen += found
         return found
+
+    def _gaze(self) -> float:
+        """Where to look next: all around in turn, each second picture at the target."""
+        self._pictures += 1
+        if self.target is not None and self._pictures % 2:
+            x, y, heading = self.pose
+            there = math.atan2(self.target.y - y, self.target.x - x)
+            return math.remainder(there - heading, math.tau)
+        pan = self.camera.spec.pan
+        share = 2 if self.target is not None else 1
+        return pan[self._pictures // share % len(pan)]
 
     def _log_odometry(self, time: float, true: Pose) -> None:
         pose = self._odometry.pose

@@ -27,6 +27,7 @@ class Seen:
         bearing: radians to the left.
         kind: class.
         confidence: in (0, 1].
+        sigma: standard deviations of range and bearing.
         thing: for measuring alone: id of the object that it is of; "" for none.
     """
 
@@ -35,6 +36,7 @@ class Seen:
     bearing: float
     kind: str
     confidence: float
+    sigma: tuple[float, float]
     thing: str = ""
 
 
@@ -62,7 +64,6 @@ class Journal:
         self,
         position: dict[str, int],
         noise: OdometryNoise,
-        sigma: tuple[float, float],
         sigma_fix: float,
     ) -> RobotLog:
         """The log for map building.
@@ -70,7 +71,6 @@ class Journal:
         Args:
             position: class -> its number.
             noise: of the odometry.
-            sigma: of range (metres) and bearing (radians).
             sigma_fix: of a fix, metres.
         """
         s = self.seen
@@ -92,7 +92,8 @@ class Journal:
                 np.array([position[x.kind] for x in s], np.int64),
                 np.array([x.confidence for x in s], float),
                 np.full(len(s), "", object),
-                *sigma,
+                np.array([x.sigma[0] for x in s], float),
+                np.array([x.sigma[1] for x in s], float),
             ),
             self.start,
             fixes=fixes,

@@ -8,7 +8,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from symboslam.sim_bridge.bridge.scene import Others, Scene
 from symboslam.sim_bridge.mission.control_agent import ControlAgent
@@ -114,7 +113,6 @@ class _Flight:
         self._control = ControlAgent(team.agents, search)
         self._area = team.area()
         self._swept = Coverage(team.area().extent, s.reach / 12)
-        self._before: list[NDArray[np.float64]] = []
         self._found: dict[str, float] = {}
         self._ticks: list[Tick] = []
         self._told = [0] * len(team.agents)
@@ -168,7 +166,10 @@ class _Flight:
                 self._team.notes.append(note)
                 self._listener.event(time, agent.name, "mesh", note)
             self._told[n] = len(agent.scene.notes)
-        self._sweep([np.array(pose) for pose in poses.values()])
+        for agent in self._team.agents:
+            x, y, heading = poses[agent.name]
+            eye = np.array([x, y, heading + agent.gaze])
+            self._swept.sweep(eye, eye, self._area.reach, agent.camera.spec.fov)
         tick = self._tick(time)
         if abs(time - round(time)) < 1e-9:
             self._ticks.append(tick)
@@ -178,12 +179,6 @@ class _Flight:
             self._viewer[0].follow([p[:2] for p in poses.values()])
             self._viewer[1].show(poses)
         return tick
-
-    def _sweep(self, poses: list[NDArray[np.float64]]) -> None:
-        """Mark what the robots truly looked at since the last tick."""
-        for before, after in zip(self._before or poses, poses, strict=True):
-            self._swept.sweep(before, after, self._area.reach, self._area.fov)
-        self._before = poses
 
     def _act(self, time: float, step: float) -> None:
         """The control agent gives goals, every robot drives."""

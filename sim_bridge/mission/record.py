@@ -23,7 +23,7 @@ from symboslam.sim_bridge.worlds.world_file import write_world
 
 HEADS = {
     "odometry.csv": "time,x,y,heading,robot",
-    "detections.csv": "time,range,bearing,class,confidence,robot",
+    "detections.csv": "time,range,bearing,class,confidence,sigma_range,sigma_bearing,robot",
     "identity.csv": "time,robot,object",
     "starts.csv": "robot,x,y,heading",
     "coverage.csv": "time,coverage,formula,found,dispersion",
@@ -103,7 +103,7 @@ class Recorder(Listener):
             self._line(
                 "detections.csv",
                 f"{one.time:g},{one.range:.3f},{one.bearing:.5f},{one.kind},"
-                f"{one.confidence:.3f},{journal.name}",
+                f"{one.confidence:.3f},{one.sigma[0]:.3f},{one.sigma[1]:.5f},{journal.name}",
             )
             self._line("identity.csv", f"{one.time:g},{journal.name},{one.thing}")
         if journal.fixes and journal.fixes[-1][0] == time:

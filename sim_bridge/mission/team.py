@@ -18,7 +18,6 @@ from symboslam.sim_bridge.bridge.camera import Camera
 from symboslam.sim_bridge.bridge.detections import get_detector
 from symboslam.sim_bridge.bridge.lidar import Lidar
 from symboslam.sim_bridge.bridge.odometry import Gps, WheelOdometry, noise_of
-from symboslam.sim_bridge.bridge.ranging import SIGMA_BEARING, SIGMA_RANGE
 from symboslam.sim_bridge.bridge.robots import get_robot
 from symboslam.sim_bridge.bridge.scene import Scene
 from symboslam.sim_bridge.bridge.settings import BridgeSettings
@@ -32,8 +31,10 @@ from symboslam.sim_bridge.worlds.world import World
 
 Pose = tuple[float, float, float]
 
-MAPPING = SlamSettings(interval=1.0)
-"""A key pose a second: half as many as by default, and half the time."""
+MAPPING = SlamSettings(interval=1.0, every=5, join=0.03, hold=0.03)
+"""A key pose a second, half as many as by default, which takes half the time. Each picture of a
+camera that turns shows little, so that landmarks seem farther apart than they are: `join` and
+`hold` are smaller shares of that."""
 
 
 @dataclass(frozen=True)
@@ -94,7 +95,7 @@ class Team:
             tuple(agent.journal.start for agent in self.agents),
             min(agent.robot.top_speed for agent in self.agents),
             s.reach,
-            s.bridge.camera.fov,
+            s.bridge.camera.field,
         )
 
     def slam_mission(self) -> SlamMission:
@@ -104,10 +105,7 @@ class Team:
         label = _labels(position)
         sigma_fix = bridge.gps.sigma if bridge.gps else 3.0
         journals = [agent.journal for agent in self.agents]
-        logs = [
-            j.log(label, noise_of(bridge.odometry), (SIGMA_RANGE, SIGMA_BEARING), sigma_fix)
-            for j in journals
-        ]
+        logs = [j.log(label, noise_of(bridge.odometry), sigma_fix) for j in journals]
         truth = Truth(
             {o.id: (o.x, o.y) for o in self.world.objects},
             {j.name: np.array([(t, *p) for t, p in j.truth], float) for j in journals},
@@ -168,8 +166,7 @@ def assemble(world: World, settings: MissionSettings, knowledge: Knowledge) -> T
                 Gps(bridge.gps, rngs[3]) if bridge.gps else None,
                 EdgeMapper(
                     robot.name, classes.names, classes.dynamic, start=start,
-                    noise=noise_of(bridge.odometry), sigma_range=SIGMA_RANGE,
-                    sigma_bearing=SIGMA_BEARING, settings=MAPPING,
+                    noise=noise_of(bridge.odometry), settings=MAPPING,
                 ),
                 label,
                 start,

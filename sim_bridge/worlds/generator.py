@@ -16,7 +16,7 @@ from symboslam.sim_bridge.worlds.checks import Notes, free_starts
 from symboslam.sim_bridge.worlds.filling import Filler
 from symboslam.sim_bridge.worlds.frequencies import real_frequencies
 from symboslam.sim_bridge.worlds.plans import PLANS, Plan, find_plan, get_plan
-from symboslam.sim_bridge.worlds.starts import spread
+from symboslam.sim_bridge.worlds.starts import base
 from symboslam.sim_bridge.worlds.streets import (
     Network,
     Streets,
@@ -24,7 +24,7 @@ from symboslam.sim_bridge.worlds.streets import (
     open_streets,
     roads_of,
 )
-from symboslam.sim_bridge.worlds.world import Extent, Ground, Start, World
+from symboslam.sim_bridge.worlds.world import Extent, Ground, Start, World, WorldObject
 from symboslam.sim_bridge.worlds.zoning import zone_blocks, zones_of
 
 ATTRIBUTION = (
@@ -90,15 +90,17 @@ def generate(plan: Plan, seed: int = 7) -> World:
         objects=objects,
         zones=zones_of(streets, zoning),
         roads=roads_of(streets, network),
-        starts=_starts(streets, network),
+        starts=_starts(streets, network, objects),
         ground=Ground(),
         attribution=ATTRIBUTION,
     )
     return free_starts(world, plan.name)[0]
 
 
-def _starts(streets: Streets, network: Network) -> tuple[Start, ...]:
-    """Some middles of streets between crossings."""
+def _starts(
+    streets: Streets, network: Network, objects: tuple[WorldObject, ...]
+) -> tuple[Start, ...]:
+    """At the middle of a street between two crossings."""
     n = streets.nodes
     places, headings = [], []
     for begin, end, width in (
@@ -109,4 +111,4 @@ def _starts(streets: Streets, network: Network) -> tuple[Start, ...]:
         places.append(((begin + end) / 2)[there])
         step = (end - begin)[there]
         headings.append(np.arctan2(step[:, 1], step[:, 0]))
-    return spread(np.vstack(places), np.concatenate(headings), streets.extent)
+    return base(np.vstack(places), np.concatenate(headings), streets.extent, objects)

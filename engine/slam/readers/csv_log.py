@@ -51,9 +51,13 @@ DETECTIONS = {
     "class": ("label", "feature", "type", "class_name"),
     "confidence": ("score", "probability", "conf"),
     "key": ("sign", "barcode", "marker"),
+    "sigma_range": ("range_sigma", "range_std", "std_range"),
+    "sigma_bearing": ("bearing_sigma", "bearing_std", "std_bearing"),
 }
 FIXES = {"time": TIME, "robot": ROBOT_NAMES, **PLACE, "sigma": ("std", "accuracy", "sigma_m")}
 STARTS = {"robot": ROBOT_NAMES, **PLACE, **HEADING}
+SIGMAS = {"sigma_range": 0.5, "sigma_bearing": 0.02}
+"""Metres and radians of detections that do not say how good they are."""
 SIGMA_FIX = 3.0
 """Metres of a fix that does not say how good it is: a plain GPS receiver under open sky."""
 ONLY_ROBOT = "Robot 1"
@@ -255,6 +259,13 @@ def _detections(
         )
     index: Ints = np.flatnonzero(good)
     index = index[in_order(time[index], table.path.name, notes)]
+    sigmas = {
+        name: table.floats(name, empty=default) for name, default in SIGMAS.items() if name in table
+    }
+    for name, sigma in sigmas.items():
+        wrong = good & ~((sigma > 0) & np.isfinite(sigma))
+        if wrong.any():
+            raise table.wrong(int(np.argmax(wrong)), name, "not above 0")
     feature = [classes.position_of(name) for name in table.texts("class")[index].tolist()]
     return Measurements(
         time=time[index],
@@ -263,6 +274,7 @@ def _detections(
         feature=np.array(feature, np.int64),
         confidence=np.nan_to_num(confidence[index], nan=1.0),
         key=table.texts("key")[index],
+        **{name: sigma[index] for name, sigma in sigmas.items()},
     )
 
 

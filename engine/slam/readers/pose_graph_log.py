@@ -214,15 +214,17 @@ def _measurements(part: Chain, seen: list[Sighting], key: NDArray[np.object_]) -
         feature=np.zeros(len(seen), np.int64),
         confidence=np.ones(len(seen)),
         key=key,
-        sigma_range=_median([s.sigma_range for s in seen], Measurements.sigma_range),
-        sigma_bearing=_median([s.sigma_bearing for s in seen], Measurements.sigma_bearing),
+        sigma_range=_known([s.sigma_range for s in seen], 0.5),
+        sigma_bearing=_known([s.sigma_bearing for s in seen], 0.02),
     )
 
 
-def _median(values: list[float], default: float) -> float:
-    known = np.array(values, float)
-    known = known[np.isfinite(known)]
-    return float(np.median(known)) if len(known) else default
+def _known(values: list[float], default: float) -> Floats:
+    """(m,) deviations; those that the file does not say are the median of the others."""
+    found = np.array(values, float)
+    said = np.isfinite(found) & (found > 0)
+    found[~said] = np.median(found[said]) if said.any() else default
+    return found
 
 
 def _fixes(graph: PoseGraph, part: Chain) -> Fixes | None:

@@ -104,17 +104,18 @@ def _to_landmarks(graph: RobotGraph, first: int, landmarks: int) -> Iterator[str
         (graph.landmark + landmarks).tolist(),
         seen.range.tolist(),
         seen.bearing.tolist(),
+        *seen.sigmas.T.tolist(),
         strict=True,
     )
-    for pose, landmark, reach, bearing in ends:
+    for pose, landmark, reach, bearing, sigma_range, sigma_bearing in ends:
         if np.isnan(bearing):
             continue
         if np.isnan(reach):
-            information = max(seen.sigma_bearing, SMALLEST) ** -2.0
+            information = max(sigma_bearing, SMALLEST) ** -2.0
             yield f"EDGE_BEARING_SE2_XY {pose} {landmark} {bearing!r} {information!r}\n"
             continue
         ahead = np.array([np.cos(bearing), np.sin(bearing)])
-        matrix = _information(ahead, reach, seen.sigma_range, seen.sigma_bearing)
+        matrix = _information(ahead, reach, sigma_range, sigma_bearing)
         values = _row([*(ahead * reach), matrix[0, 0], matrix[0, 1], matrix[1, 1]])
         yield f"EDGE_SE2_XY {pose} {landmark} {values}\n"
 
