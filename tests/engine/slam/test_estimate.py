@@ -243,6 +243,21 @@ def test_ranges_or_bearings_alone_of_named_landmarks_are_used(missing: str) -> N
     assert wrong_merges(mission, found) == 0
 
 
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_start_that_is_wrong_is_told_by_name(seed: int) -> None:
+    mission = simulate(replace(SMALL, robots=3, known_starts=3), seed)
+    assert estimate(mission).doubts == ()
+
+    def moved(log: RobotLog) -> RobotLog:
+        x, y, heading = log.start or (0.0, 0.0, 0.0)
+        return replace(log, start=(x + 30 * (log.name == "robot 2"), y, heading))
+
+    found = estimate(changed(mission, moved))
+    assert max(errors(mission, found).values()) > 5
+    told = [doubt for doubt in found.doubts if "the start that it was given" in doubt]
+    assert told[0].startswith("robot 2: ")
+
+
 def test_robots_that_see_each_other_help_each_other() -> None:
     mission = simulate(
         replace(SMALL, landmarks=1, meetings=True, side=80.0, reach=80.0, known_starts=2), SEED
