@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from symboslam.engine.slam.beliefs import ClassBeliefs
 from symboslam.engine.slam.increment import AHEAD, EdgeIncrement
+from symboslam.engine.slam.interleaving import OFTEN, jumps
 from symboslam.engine.slam.joining import Joining, Progress, silent
 from symboslam.engine.slam.key_poses import KeyPoses, replay
 from symboslam.engine.slam.log import Floats, RobotLog
@@ -47,6 +48,7 @@ class CollectiveMap:
         self._settings = settings or SlamSettings()
         self._runs: dict[tuple[str, str], Run] = {}
         self._problems: Counter[str] = Counter()
+        self._doubts: list[str] = []
 
     def add(self, increment: EdgeIncrement) -> None:
         """Take over an increment, in any order.
@@ -82,6 +84,12 @@ class CollectiveMap:
             for time, (x, y), sigma in zip(*columns, strict=True):
                 keys.fix(time, x, y, sigma)
         run.rows, run.finished = len(log.seen), True
+        times = jumps(log.odometry.pose[:, :2])
+        if times >= OFTEN:
+            self._doubts.append(
+                f"{run.name}: its odometry jumps there and back {times} times, as where the clock "
+                f"was set back and two drives lie between each other in time"
+            )
         for problem, times in keys.problems.items():
             self._problems[f"{run.name}: {problem}"] += times
 
@@ -114,7 +122,7 @@ class CollectiveMap:
         joining = Joining(runs, edges, self._similarity, self._settings, progress)
         joining.join()
         progress("done", 1.0)
-        said = joining.said() + self._of_starts(joining)
+        said = self._doubts + joining.said() + self._of_starts(joining)
         for n in joining.lost:
             said.append(f"{runs[n].name} could not be placed: it does not know where it began")
         notes = self.notes
