@@ -12,14 +12,18 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from symboslam.engine.slam.increment import EdgeIncrement
+from symboslam.engine.slam.beliefs import ClassBeliefs
+from symboslam.engine.slam.increment import AHEAD, EdgeIncrement
+from symboslam.engine.slam.interleaving import OFTEN, jumps
 from symboslam.engine.slam.joining import Joining, Progress, silent
 from symboslam.engine.slam.key_poses import KeyPoses, replay
 from symboslam.engine.slam.log import Floats, RobotLog
 from symboslam.engine.slam.outcome import outcome
 from symboslam.engine.slam.run import Run
+from symboslam.engine.slam.scale import Scale
 from symboslam.engine.slam.settings import SlamSettings
 from symboslam.engine.slam.slam_map import SlamMap
+from symboslam.engine.slam.starts import doubtful_starts
 
 
 class CollectiveMap:
@@ -44,11 +48,20 @@ class CollectiveMap:
         self._settings = settings or SlamSettings()
         self._runs: dict[tuple[str, str], Run] = {}
         self._problems: Counter[str] = Counter()
+        self._doubts: list[str] = []
 
     def add(self, increment: EdgeIncrement) -> None:
-        """Take over an increment, in any order; one that came before is ignored."""
+        """Take over an increment, in any order.
+
+        One that came before is ignored; one that is numbered too far ahead is left out, and noted.
+        """
         run = self._run(increment.robot, increment.run)
-        if not run.add(increment):
+        if run.is_too_far(increment.sequence):
+            self._problems[
+                f"increments of {run.name} numbered more than {AHEAD} beyond the highest that had "
+                f"come, left out"
+            ] += 1
+        elif not run.add(increment):
             self._problems[f"increments of {run.name} that had come before, left out"] += 1
 
     def add_log(self, log: RobotLog, progress: Progress = silent) -> None:
@@ -65,6 +78,12 @@ class CollectiveMap:
             for time, (x, y), sigma in zip(*columns, strict=True):
                 keys.fix(time, x, y, sigma)
         run.rows, run.finished = len(log.seen), True
+        times = jumps(log.odometry.pose[:, :2])
+        if times >= OFTEN:
+            self._doubts.append(
+                f"{run.name}: its odometry jumps there and back {times} times, as where the clock "
+                f"was set back and two drives lie between each other in time"
+            )
         for problem, times in keys.problems.items():
             self._problems[f"{run.name}: {problem}"] += times
 
@@ -97,7 +116,7 @@ class CollectiveMap:
         joining = Joining(runs, edges, self._similarity, self._settings, progress)
         joining.join()
         progress("done", 1.0)
-        said = joining.said()
+        said = self._doubts + joining.said() + self._of_starts(joining)
         for n in joining.lost:
             said.append(f"{runs[n].name} could not be placed: it does not know where it began")
         notes = self.notes
@@ -108,6 +127,15 @@ class CollectiveMap:
                     f"{edge.outliers}"
                 )
         return outcome(joining, self._dynamic, self._similarity, said, notes)
+
+    def _of_starts(self, joining: Joining) -> list[str]:
+        """Which starts, as given, do not fit the map."""
+        scale = Scale()
+        for edge in joining.edges:
+            scale.include(edge.scale)
+        excess = {n: sum(doubt.excess for doubt in each) for n, each in joining.doubts.items()}
+        doubted = [joining.placed.index(n) for n in sorted(excess, key=lambda n: -excess[n])]
+        return doubtful_starts(joining.graph, doubted, ClassBeliefs(self._similarity), scale)
 
     def _run(self, robot: str, run: str) -> Run:
         found = self._runs.get((robot, run))

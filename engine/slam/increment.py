@@ -13,6 +13,11 @@ from symboslam.engine.readers.checks import LONGEST_ID, UNWRITABLE
 from symboslam.engine.slam.log import Floats, Ints, Pose
 from symboslam.errors import InputError
 
+AHEAD = 1000
+"""An increment is numbered at most so far beyond the highest that has come of its run: robots send
+in order, so what lies farther ahead is a mistake, and what it would wait for does not come."""
+MOST_ROWS = 10_000_000
+"""Sightings of one run are numbered below it: a month of a robot that sees four things a second."""
 _FARTHEST = 1e12
 """Metres, and seconds since 1970; nothing reaches farther."""
 _MOST = 2**53
@@ -144,6 +149,7 @@ class EdgeIncrement:
         _all((spread > 0).all(1), "sigma", "not above 0", int(begins))
         _all((self.sigma >= 0).all(1), "sigma", "below 0")
         _all(self.row >= 0, "row", "below 0")
+        _all(self.row < MOST_ROWS, "row", f"not below {MOST_ROWS}")
         if len(np.unique(self.row)) < len(self.row):
             raise InputError("row has a number twice")
         for name in ("pose", "fix_pose"):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 from symboslam.engine.slam.beliefs import ClassBeliefs
 from symboslam.engine.slam.edge_landmarks import Known
 from symboslam.engine.slam.edge_map import EdgeMap
-from symboslam.engine.slam.increment import EdgeIncrement
+from symboslam.engine.slam.increment import AHEAD, EdgeIncrement
 from symboslam.engine.slam.joint import Member, Piece
 from symboslam.engine.slam.log import ROBOT, Closures, Floats, Pose
 from symboslam.engine.slam.pose_graph import Fix, PoseGraph, Sighting
@@ -20,6 +21,8 @@ from symboslam.engine.slam.settings import SlamSettings
 
 OWN: Pose = (0.01, 0.01, 0.001)
 """Standard deviations of a start that a robot's own frame is laid through."""
+GAPS = 100
+"""So many missing increments are listed."""
 LOOSE: Pose = (1.0, 1.0, 0.1)
 """Standard deviations of a start that was worked out."""
 
@@ -67,13 +70,21 @@ class Run:
 
     @property
     def missing(self) -> list[int]:
-        """Numbers of increments that have not come, though later ones have."""
-        if not self._waiting:
-            return []
-        return [n for n in range(self._next, max(self._waiting)) if n not in self._waiting]
+        """Numbers of the first increments that have not come, though later ones have."""
+        gaps = (n for n in range(self._next, self.latest) if n not in self._waiting)
+        return list(itertools.islice(gaps, GAPS))
+
+    @property
+    def latest(self) -> int:
+        """The highest number that has come; -1 for none."""
+        return max(self._waiting, default=self._next - 1)
+
+    def is_too_far(self, sequence: int) -> bool:
+        """Whether a number lies so far ahead that it is a mistake."""
+        return sequence > self.latest + AHEAD
 
     def add(self, increment: EdgeIncrement) -> bool:
-        """Take over an increment, in any order; False if it is not new."""
+        """Take over an increment that is not too far ahead, in any order; False if not new."""
         if increment.sequence < self._next or increment.sequence in self._waiting:
             return False
         self._waiting[increment.sequence] = increment

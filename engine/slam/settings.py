@@ -13,12 +13,15 @@ class SlamSettings:
         interval: seconds between key poses, at least.
         every: key poses between two updates of an edge agent's map.
         join: a sighting belongs to a landmark seen before as long as odometry since is good to
-            this share of the spacing.
-        hold: a landmark is compared with the map as long as odometry since is good to this share.
+            this share of the spacing (gating of tracks).
+        hold: a landmark is compared with the map as long as odometry since is good to this share
+            (delayed data association; it sets the window of a local map).
         base: metres by which two positions of one landmark may differ beside what is modelled,
             as a share of the standard deviation of ranges.
-        certainty: log odds by which landmarks have to be the same, to be joined.
-        rival: log odds by which the best explanation has to be better than the next.
+        certainty: log odds by which landmarks have to be the same, to be joined (acceptance
+            threshold on the log-odds of a hypothesis).
+        rival: log odds by which the best explanation has to be better than the next (margin over
+            the second-best hypothesis, as of an ambiguity test).
         kernel: of the Cauchy loss on measurements, in standard deviations.
         floor: metres by which merged landmarks may lie apart beside their covariances, as a share
             of the standard deviation of ranges.

@@ -192,7 +192,7 @@ def _look(
         for k in np.flatnonzero((distance < world.reach) & (abs(bearing) < np.pi / 2)).tolist():
             is_robot = k >= len(xy)
             what = ROBOT if is_robot else int(feature[k])
-            if not is_robot and rng.random() < world.misclassified:
+            if not is_robot and rng.random() < world.misclassified and world.classes > 1:
                 what = (what + int(rng.integers(1, world.classes))) % world.classes
             reach, angle = distance[k], bearing[k]
             if rng.random() < world.outliers:

@@ -1,12 +1,14 @@
 """Unseen: landmarks that a robot had in view again and again, and never saw.
 
 A robot that is wrong merges nothing, and what is not merged fits itself. But then the landmarks of
-others lie in its view all the time without being seen, and its own in theirs.
+others lie in its view all the time without being seen, and its own in theirs. What something nearer
+hides, such as a building, is not in view.
 """
 
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from symboslam.engine.slam.joint import JointGraph, Member
 from symboslam.engine.slam.log import Floats
@@ -20,6 +22,13 @@ AGAIN = 5
 """A landmark is expected to be seen if it is in view from so many key poses."""
 WELL = 3
 """Landmarks with fewer sightings are expected of nobody."""
+
+
+BESIDE = float(np.radians(10.0))
+"""What is seen nearer by in about the same direction, by so many radians, may hide what lies
+behind; a house of 10 m does at 30 m."""
+BEFORE = 0.8
+"""Nearer by is what lies within this share of the distance."""
 
 
 def unseen(graph: JointGraph) -> list[tuple[int, int]]:
@@ -54,8 +63,26 @@ def _in_view(member: Member, xy: Floats) -> Floats:
     low, high = np.percentile([wrap(s.bearing) for s in seen], USUAL)
     reach = NEAR * float(np.percentile([s.range for s in seen], USUAL[1]))
     times = np.zeros(len(xy))
-    for x, y, heading in member.poses[sorted({s.pose for s in seen})].tolist():
+    there: dict[int, list[tuple[float, float]]] = {}
+    for s in seen:
+        there.setdefault(s.pose, []).append((s.range, s.bearing))
+    for number, those in there.items():
+        x, y, heading = member.poses[number].tolist()
         away = xy - (x, y)
-        turn = wrap(np.arctan2(away[:, 1], away[:, 0]) - heading)
-        times += (np.hypot(*away.T) < reach) & (low < turn) & (turn < high)
+        far, turn = np.hypot(*away.T), wrap(np.arctan2(away[:, 1], away[:, 0]) - heading)
+        times += (far < reach) & (low < turn) & (turn < high) & ~_hidden(far, turn, those)
     return times
+
+
+def _hidden(far: Floats, turn: Floats, seen: list[tuple[float, float]]) -> NDArray[np.bool_]:
+    """(n,) whether something that was seen stands before places.
+
+    Args:
+        far: (n,) metres to the places.
+        turn: (n,) radians, their bearings.
+        seen: ranges and bearings of what was seen.
+    """
+    ranges, bearings = np.array(seen).T
+    nearer = ranges < BEFORE * far[:, None]
+    beside = np.abs(wrap(turn[:, None] - bearings)) < BESIDE
+    return np.asarray((nearer & beside).any(1))

@@ -22,7 +22,12 @@ from symboslam.service.json_body import (
 )
 from symboslam.service.lifecycle import CurrentLifecycle
 from symboslam.service.maps import openapi_agents
-from symboslam.service.maps.mailbox import IncrementConflictError, Mailbox, any_of
+from symboslam.service.maps.mailbox import (
+    IncrementAheadError,
+    IncrementConflictError,
+    Mailbox,
+    any_of,
+)
 from symboslam.service.maps.models_agents import (
     IncrementsResult,
     LandmarksRequest,
@@ -69,7 +74,8 @@ async def post_increments(
     """Leave increments of robots' pose graphs for a control agent: all of them or none.
 
     An increment is known by its robot, run and sequence. The same again is taken once; they may
-    come in any order. What was answered survives the death of the process.
+    come in any order, but not numbered more than 1000 beyond the highest that has come (409). What
+    was answered survives the death of the process.
     """
     kind, _message = media_type(request.headers.get("content-type"))
     if kind not in (JSON, *_KINDS):
@@ -80,6 +86,8 @@ async def post_increments(
         count = await mailbox.post(running.record.id, found)
     except IncrementConflictError as error:
         raise Problem(409, "increment-conflict", str(error)) from error
+    except IncrementAheadError as error:
+        raise Problem(409, "increment-ahead", str(error)) from error
     response.status_code = 201 if count["new"] else 200
     return IncrementsResult(received=len(found), new=count["new"], known=count["known"])
 

@@ -16,7 +16,7 @@ from datetime import UTC, datetime
 from hashlib import sha256
 from typing import Any
 
-from symboslam.engine.slam.increment import EdgeIncrement
+from symboslam.engine.slam.increment import AHEAD, EdgeIncrement
 from symboslam.service.maps.tables import Tables
 
 _TABLES = """
@@ -36,6 +36,10 @@ MOST_GAPS = 100
 
 class IncrementConflictError(Exception):
     """Another increment with the same robot, run and sequence was taken before."""
+
+
+class IncrementAheadError(Exception):
+    """An increment is numbered so far beyond the others of its run that it is a mistake."""
 
 
 @dataclass(frozen=True)
@@ -91,6 +95,7 @@ class Mailbox(Tables):
 
         Raises:
             IncrementConflictError: one is known with another content; names it.
+            IncrementAheadError: one is numbered more than `AHEAD` beyond the highest; names it.
         """
         found = await asyncio.to_thread(self.put, identifier, list(increments))
         if found["new"] and (news := self._news.pop(identifier, None)):
@@ -134,6 +139,7 @@ class Mailbox(Tables):
                     )
                 count["new" if known is None else "known"] += 1
                 if known is None:
+                    _check_ahead(database, identifier, each)
                     number += 1
                     database.execute(
                         "INSERT INTO increment (map, robot, run, sequence, number, digest,"
@@ -207,6 +213,24 @@ def _number(database: sqlite3.Connection, identifier: str) -> int:
     """Number of the increment of a map that came last; 0 if there is none."""
     query = "SELECT coalesce(max(number), 0) FROM increment WHERE map = ?"
     return int(database.execute(query, (identifier,)).fetchone()[0])
+
+
+def _check_ahead(database: sqlite3.Connection, identifier: str, each: EdgeIncrement) -> None:
+    """Refuse what is numbered too far ahead.
+
+    Raises:
+        IncrementAheadError: it is.
+    """
+    (latest,) = database.execute(
+        "SELECT coalesce(max(sequence), -1) FROM increment WHERE map = ? AND robot = ? AND run = ?",
+        (identifier, each.robot, each.run),
+    ).fetchone()
+    if each.sequence > latest + AHEAD:
+        come = f"the highest that has come is {latest}" if latest >= 0 else "none has come yet"
+        raise IncrementAheadError(
+            f"increment {each.sequence} of run {each.run!r} of robot {each.robot!r} cannot be:"
+            f" {come}, and at most {AHEAD} may be missing in between"
+        )
 
 
 def any_of(run: Run) -> dict[str, Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from symboslam.engine.slam.increment import MOST_ROWS
 from symboslam.service.maps.models_agents import IncrementsResult
 from symboslam.service.maps.openapi import TEXT
 from symboslam.service.openapi import also
@@ -12,6 +13,7 @@ from symboslam.service.vocabulary import JSON, NDJSON
 _FAR = {"type": "number", "minimum": -1e12, "maximum": 1e12}
 _POSITIVE = {"type": "number", "exclusiveMinimum": 0, "maximum": 1e12}
 _COUNT = {"type": "integer", "minimum": 0, "maximum": 2**53 - 1}
+_ROW = {"type": "integer", "minimum": 0, "maximum": MOST_ROWS - 1}
 _NAME = {"type": "string", "maxLength": 256, "pattern": TEXT}
 _WORD = {"type": "string", "minLength": 1, "maxLength": 256, "pattern": r"^[0-9A-Za-z._:@/-]*$"}
 
@@ -28,7 +30,11 @@ _SIGHTING, _KEY_POSE, _FIX = "sighting", "key pose", "position from outside"
 _MEMBERS: dict[str, Any] = {
     "robot": {**_WORD, "description": "Its name; any text that prints."},
     "run": {**_WORD, "description": "Names one run of one robot."},
-    "sequence": {**_COUNT, "description": "Number of the increment in its run, from 0."},
+    "sequence": {
+        **_COUNT,
+        "description": "Number of the increment in its run, from 0; at most"
+        " 1000 beyond the highest that has come.",
+    },
     "start": {
         "anyOf": [_three(_FAR), {"type": "null"}],
         "description": "Where the run began: x, y in the map's metres, heading in radians from x to"
@@ -42,7 +48,7 @@ _MEMBERS: dict[str, Any] = {
         "description": "From the key pose before, in its frame; zeros for the very first.",
     },
     "sigma": {**_rows(_three(_POSITIVE), _KEY_POSE), "description": "Deviations of the steps."},
-    "row": {**_rows(_COUNT, _SIGHTING), "description": "Number of each sighting in its run."},
+    "row": {**_rows(_ROW, _SIGHTING), "description": "Number of each sighting in its run."},
     "seen": {**_rows(_FAR, _SIGHTING), "description": "Seconds, when each sighting was made."},
     "pose": {**_rows(_COUNT, _SIGHTING), "description": "Key pose that it is made from."},
     "range": {

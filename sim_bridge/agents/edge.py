@@ -8,14 +8,14 @@ from typing import Protocol
 
 from symboslam.engine.slam.increment import EdgeIncrement
 from symboslam.engine.slam.log import ROBOT, Pose
-from symboslam.sim_bridge.agents.link import Tell
-from symboslam.sim_bridge.agents.records import (
+from symboslam.engine.slam.readers.records import (
     ROBOT_CLASS,
     FixRecord,
     OdometryRecord,
     Record,
     SightingRecord,
 )
+from symboslam.sim_bridge.agents.link import Tell
 from symboslam.sim_bridge.agents.spool import Spool, SpoolFullError
 
 _TICK = 0.5

@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from symboslam.engine.slam.log import Mission, RobotLog
+from symboslam.engine.slam.readers.records import Record, of_log
 from symboslam.errors import InputError
 from symboslam.reasoning.knowledge import Knowledge
-from symboslam.sim_bridge.agents.records import Record, of_log
 
 _LINES = (".ndjson", ".jsonl")
 

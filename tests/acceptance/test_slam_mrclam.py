@@ -36,7 +36,9 @@ def test_json_of_a_set_without_drift(run: Any, tmp_path: Path) -> None:
     done = run("slam", "mrclam", write_set(tmp_path / "set"), "--json")
     assert (done.code, done.err) == (0, f"doubt: {DOUBT}\n")
     found = json.loads(done.out)
-    assert found.keys() == FIGURES | {"dead_reckoning", "paper_rule", "doubts", "notes"}
+    assert found.keys() == FIGURES | {
+        "dead_reckoning", "paper_rule", "doubts", "notes", "starts", "robots_lost"
+    }  # fmt: skip
     assert found["doubts"] == [DOUBT]
     assert found["notes"] == ["stood in"]
     for figures in (found, found["dead_reckoning"], found["paper_rule"]):
@@ -71,10 +73,21 @@ def test_hidden_identities(run: Any, tmp_path: Path) -> None:
     assert found["paper_rule"]["landmark_rmse_m"] < 1e-6
 
 
-@pytest.mark.parametrize(("starts", "missing"), [("all", 0), ("first", 1), ("none", 1)])
-def test_starts(run: Any, tmp_path: Path, starts: str, missing: int) -> None:
-    done = run("slam", "mrclam", write_set(tmp_path / "set"), "--starts", starts, "--json")
-    found = json.loads(done.out)
+@pytest.mark.parametrize(
+    ("starts", "missing", "used"),
+    [("all", 0, ["known"] * 2), ("first", 1, ["known", "none"]), ("none", 1, ["first", "none"])],
+)
+def test_starts(run: Any, tmp_path: Path, starts: str, missing: int, used: list[str]) -> None:
+    source = write_set(tmp_path / "set")
+    found = json.loads(run("slam", "mrclam", source, "--starts", starts, "--json").out)
+    assert found["starts"] == dict(zip(("Robot 1", "Robot 2"), used, strict=True))
+    assert found["robots_lost"] == ["Robot 2"][:missing]
+    again = json.loads(run("slam", "run", source, "--starts", starts, "--json").out)
+    assert again["starts"] == found["starts"]
+    assert again["robots_lost"] == found["robots_lost"]
+    table = run("slam", "mrclam", source, "--starts", starts).out
+    said = "SymboSLAM: lost and in none of the errors of paths: Robot 2"
+    assert (said in table) == (missing == 1)
     for figures in (found, found["dead_reckoning"], found["paper_rule"]):
         assert figures["robots_missing"] == ["Robot 2"][:missing]
         assert figures["landmark_rmse_m"] < 1e-6
@@ -89,8 +102,8 @@ def test_table_outputs_and_picture(run: Any, tmp_path: Path) -> None:
     )  # fmt: skip
     assert (done.code, done.err) == (0, f"doubt: {DOUBT}\n")
     rows = [line.split() for line in done.out.splitlines()]
-    assert ["SymboSLAM", *["0.000"] * 4, "8", "of", "8", "0", "0", "0.0"] in rows
-    assert [row[0] for row in rows if row[-1:] and row[-4:-3] == ["8"]] == [
+    assert ["SymboSLAM", *["0.000"] * 4, "8", "of", "8", "0", "0", "0", "0.0"] in rows
+    assert [row[0] for row in rows if row[-1:] and row[-5:-4] == ["8"]] == [
         "SymboSLAM",
         "dead",
         "the",

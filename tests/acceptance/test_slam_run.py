@@ -15,6 +15,12 @@ from tests.acceptance.slam_stand_in import DOUBT, stand_in
 
 ODOMETRY = "time,x,y,heading\n0,0,0,0\n1,1,0,0\n2,2,0,0\n"
 DETECTIONS = "time,range,bearing,class,key\n0,5,0,Tree,a\n2,3,0,Tree,a\n2,1,0,Car,b\n"
+LINES = (
+    '{"time": 0, "odometry": [0, 0, 0]}\n'
+    '{"time": 0, "class": "Tree", "range": 5, "bearing": 0, "key": "a"}\n'
+    '{"time": 1, "odometry": [1, 0, 0]}\n'
+    '{"time": 1, "class": "Tree", "range": 4, "bearing": 0, "key": "a"}\n'
+)
 GRAPH = "VERTEX2 0 0 0 0\nVERTEX2 1 1.5 0 0\nEDGE2 0 1 1 0 0 1 0 0 1 0 1\n"
 G2O = (
     "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nVERTEX_XY 2 3 1\n"
@@ -51,18 +57,31 @@ def test_every_format_goes_out(run: Any, tmp_path: Path) -> None:
 
 
 def test_what_formats_come_in(run: Any, logs: Path, tmp_path: Path) -> None:
-    for name, text in (("a.graph", GRAPH), ("b.g2o", G2O), ("c.txt", GRAPH)):
+    lines = (("a.graph", GRAPH), ("b.g2o", G2O), ("c.txt", GRAPH), ("d.ndjson", LINES))
+    for name, text in (*lines, ("e.log", LINES)):
         (tmp_path / name).write_text(text)
     for source, landmarks in (
         (logs, 1),
         (tmp_path / "a.graph", 0),
         (tmp_path / "b.g2o", 1),
         (tmp_path / "c.txt", 0),
+        (tmp_path / "d.ndjson", 1),
+        (tmp_path / "e.log", 1),
         (write_set(tmp_path / "set"), LANDMARKS),
     ):
         done = run("slam", "run", source, "--json")
         assert done.code == 0, done
         assert json.loads(done.out)["landmarks"] == landmarks, source
+
+
+def test_logs_of_agents_are_robots_by_their_names(run: Any, tmp_path: Path) -> None:
+    for name in ("r1.ndjson", "r2.jsonl"):
+        (tmp_path / name).write_text(LINES + "what is that?\n")
+    done = run("slam", "run", tmp_path / "r1.ndjson", tmp_path / "r2.jsonl", "--json")
+    found = json.loads(done.out)
+    assert [(r["name"], r["sightings"]) for r in found["robots"]] == [("r1", 2), ("r2", 2)]
+    assert found["starts"] == {"r1": "first", "r2": "none"}
+    assert sum("line 5 is left out: it is no JSON" in note for note in found["notes"]) == 2
 
 
 def test_json(run: Any, logs: Path, tmp_path: Path) -> None:
@@ -76,6 +95,8 @@ def test_json(run: Any, logs: Path, tmp_path: Path) -> None:
     placed = {"placed": True, "poses": 3, "sightings": 3, "sightings_of_landmarks": 3}
     assert found == {
         "method": "ours",
+        "starts": {"Robot 1": "first"},
+        "robots_lost": [],
         "robots": [placed],
         "landmarks": 1,
         "moving": 1,

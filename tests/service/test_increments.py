@@ -74,12 +74,29 @@ def test_another_content_under_the_same_name_is_refused(shared: Service) -> None
     assert post(client, which, increment(run="b", x=7.0)).status_code == 201
 
 
+def test_numbers_far_ahead_are_refused(shared: Service) -> None:
+    which, client = make(shared), shared.client
+    response = post(client, which, increment(sequence=1000))
+    assert response.status_code == 409
+    assert response.json()["detail"].startswith(
+        "increment 1000 of run 'a' of robot 'r1' cannot be: none has come yet, and at most 1000"
+    )
+    assert post(client, which, increment(sequence=999)).status_code == 201
+    assert post(client, which, increment(run="b", sequence=1000)).status_code == 409
+    assert post(client, which, increment(sequence=0), increment(sequence=5000)).status_code == 409
+    assert len(fetch(client, which)) == 1, "all or none"
+    assert post(client, which, increment(sequence=1999), increment(sequence=5)).status_code == 201
+    assert robots(client, which)[0]["missing"] == [[0, 4], [6, 998], [1000, 1998]]
+
+
 @pytest.mark.parametrize(
     ("content", "status", "said"),
     [
         ('{"robot": }', 422, "line 2 column 11"), ("[]", 422, "line 2: it is no JSON object"),
         ('{"robot": "a", "robot": "b"}', 422, "'robot' twice"),
         (json.dumps({**increment(), "time": [1, 1]}), 422, "line 2: time: row 1"),
+        (json.dumps(increment(sequence=-1)), 422, "line 2: sequence is no whole number from 0"),
+        (json.dumps({**increment(), "sequence": 1.5}), 422, "line 2: sequence is no whole number"),
         (b"\xff", 422, "line 2: it is not UTF-8"),
     ],
 )  # fmt: skip

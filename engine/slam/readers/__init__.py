@@ -32,6 +32,7 @@ class Format:
         tags: first words of a line that tell it.
         folder: files in a folder that tell it.
         estimates: it can hold the result of an optimisation: ``read_estimate`` of the module.
+        several: it can be read from several files at once.
     """
 
     module: str
@@ -40,6 +41,7 @@ class Format:
     tags: tuple[str, ...] = ()
     folder: tuple[str, ...] = ()
     estimates: bool = False
+    several: bool = False
 
     def load(self, function: str = "read") -> Callable[..., Any]:
         """A function of its module."""
@@ -50,7 +52,7 @@ class Format:
 FORMATS: Mapping[str, Format] = {
     "mrclam": Format(f"{__name__}.mrclam", ("classes", "start"), folder=("Barcodes.dat",)),
     "csv": Format(
-        f"{__name__}.csv_log", ("knowledge",), (".csv",), folder=("odometry.csv",)
+        f"{__name__}.csv_log", ("knowledge",), (".csv",), folder=("odometry.csv",), several=True
     ),
     "g2o": Format(
         f"{__name__}.g2o",
@@ -68,6 +70,7 @@ FORMATS: Mapping[str, Format] = {
         estimates=True,
     ),
     "tum": Format(f"{__name__}.tum", (), (".tum",)),
+    "ndjson": Format(f"{__name__}.ndjson", ("knowledge",), (".ndjson", ".jsonl"), several=True),
 }  # fmt: skip
 """All formats by name."""
 
@@ -78,7 +81,7 @@ def read_mission(
     """Read the logs of one or several robots.
 
     Args:
-        path: a file or a folder; of CSV also several files.
+        path: a file or a folder; of CSV and NDJSON also several files.
         format: a name in ``FORMATS``; default by name and content.
         options: what the format can be told, see ``Format.options`` and its module's ``read``.
 
@@ -95,7 +98,7 @@ def read_mission(
         if key not in chosen.options:
             known = ", ".join(chosen.options) or "none"
             raise InputError(f"the format {name} has no option {key!r}; it has: {known}")
-    if name != "csv" and not isinstance(path, str | Path):
+    if not chosen.several and not isinstance(path, str | Path):
         raise InputError(f"the format {name} is read from one file or folder")
     mission, notes = chosen.load()(_paths(path), **given)
     return mission, notes
@@ -132,7 +135,8 @@ def format_of(path: AnyPath | Sequence[AnyPath], format: str | None = None) -> s
             raise InputError(f"there is no format {format!r}: choose one of {', '.join(FORMATS)}")
         return format
     if not isinstance(path, str | Path):
-        return "csv"
+        logs = all(_plain(Path(each)).endswith(FORMATS["ndjson"].suffixes) for each in path)
+        return "ndjson" if logs and path else "csv"
     where = Path(path)
     if where.is_dir():
         for name, entry in FORMATS.items():
@@ -140,7 +144,7 @@ def format_of(path: AnyPath | Sequence[AnyPath], format: str | None = None) -> s
                 return name
         files = ", ".join(file for entry in FORMATS.values() for file in entry.folder)
         raise InputError(f"{where}: the folder holds none of the files that tell a format: {files}")
-    plain = where.name.lower().removesuffix(".gz")
+    plain = _plain(where)
     for name, entry in FORMATS.items():
         if plain.endswith(entry.suffixes):
             return name
@@ -149,11 +153,18 @@ def format_of(path: AnyPath | Sequence[AnyPath], format: str | None = None) -> s
     for name, entry in FORMATS.items():
         if words and words[0] in entry.tags:
             return name
+    if words and words[0].startswith("{"):
+        return "ndjson"
     if len(words) == 8:
         return "tum"
     raise InputError(
         f"{where}: neither name nor first line tell the format; give one of {', '.join(FORMATS)}"
     )
+
+
+def _plain(path: Path) -> str:
+    """The name of a file, in small letters and without ``.gz``."""
+    return path.name.lower().removesuffix(".gz")
 
 
 def _paths(path: AnyPath | Sequence[AnyPath]) -> Path | list[Path]:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import signal
-from typing import Annotated, NoReturn
+from typing import Annotated
 
 import typer
 
 from symboslam.cli import agent_edge
 from symboslam.cli.agent_edge import QuietOption, ToOption, tell
+from symboslam.cli.agent_stop import leave
 from symboslam.cli.client import TimeoutOption, TokenOption
 from symboslam.cli.common import OntologyOption, load_knowledge, progress_bar
 from symboslam.cli.slam_common import needs_slam
@@ -73,7 +74,7 @@ def control(
 
     link = Link(to, token, timeout)
     settings = ControlSettings(name, every, tolerance, patience, silent, robots)
-    _end_on_sigterm()
+    signal.signal(signal.SIGTERM, leave)
     with progress_bar(quiet) as progress:
         classes = Classes.of(load_knowledge(ontology, progress))
     agents = {}
@@ -84,15 +85,7 @@ def control(
             link, identifier, classes.names, collective, settings,
             lambda line, about=about: tell(about + line),  # type: ignore[misc]
         )  # fmt: skip
+    signal.signal(signal.SIGINT, leave)  # it keeps nothing that could be lost
     keep(agents, once, tell)
     if not quiet:
         tell("all robots have ended")
-
-
-def _end_on_sigterm() -> None:
-    """End as with Ctrl-C when the system asks for it."""
-
-    def end(*_: object) -> NoReturn:
-        raise KeyboardInterrupt
-
-    signal.signal(signal.SIGTERM, end)

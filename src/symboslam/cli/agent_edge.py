@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import math
-import signal
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
 from secrets import token_hex
@@ -14,6 +12,7 @@ from typing import Annotated, Any
 
 import typer
 
+from symboslam.cli.agent_stop import Stop, leaving
 from symboslam.cli.client import TimeoutOption, TokenOption
 from symboslam.cli.common import OntologyOption, Progress, load_knowledge, progress_bar
 from symboslam.cli.slam_common import needs_slam
@@ -123,7 +122,8 @@ def edge(
 
     with needs_slam():
         from symboslam.engine.slam.edge import EdgeMapper
-        from symboslam.sim_bridge.agents import records, replay
+        from symboslam.engine.slam.readers import records
+        from symboslam.sim_bridge.agents import replay
         from symboslam.sim_bridge.agents.classes import Classes
         from symboslam.sim_bridge.agents.edge import EdgeAgent
         from symboslam.sim_bridge.agents.link import Link
@@ -136,8 +136,8 @@ def edge(
     elif run is None:
         how = (begin, every, sigma_range, sigma_bearing, ontology, __version__)
         run = replay.run_of(Path(log), robot, map_, *how)
-    stop = _Stop()
-    with progress_bar(quiet or live) as progress:
+    stop = Stop()
+    with leaving(), progress_bar(quiet or live) as progress:
         knowledge = load_knowledge(ontology, progress)
         with stop.possible():
             check_map(link, map_, tell)
@@ -174,8 +174,12 @@ def edge(
                 agent.end()
             else:
                 tell(f"run {run} was mapped before; --run NAME sends it again as another one")
-            with stop.possible():
-                done = sender.empty(wait, lambda left: progress(f"{left} to send", 1.0))
+
+            def waited(left: int) -> None:
+                stop.check()
+                progress(f"{left} to send", 1.0)
+
+            done = sender.empty(wait, waited)
         finally:
             sender.stop()
             if waiting.waiting:
@@ -232,36 +236,3 @@ def _lines(log: str, progress: Progress) -> Iterator[str]:
                 yield line.decode(errors="replace")
     except OSError as error:
         raise InputError(f"{log} cannot be read: {error.strerror or error}") from error
-
-
-class _Stop:
-    """Ctrl-C and SIGTERM, which end an agent where it waits, and never in the midst of its work.
-
-    Attributes:
-        wanted: whether it is to end.
-    """
-
-    def __init__(self) -> None:
-        self.wanted = self._possible = False
-        for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, self._on_signal)
-
-    def _on_signal(self, *_: object) -> None:
-        again, self.wanted = self.wanted, True
-        if self._possible or again:
-            raise KeyboardInterrupt
-
-    @contextmanager
-    def possible(self) -> Iterator[None]:
-        """Where it may end.
-
-        Raises:
-            KeyboardInterrupt: it does.
-        """
-        self._possible = True
-        try:
-            if self.wanted:
-                raise KeyboardInterrupt
-            yield
-        finally:
-            self._possible = False

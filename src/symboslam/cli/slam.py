@@ -47,8 +47,8 @@ def convert(
         Path,
         typer.Argument(
             metavar="IN",
-            help="Logs: a folder (MRCLAM, CSV) or a file (g2o, GTSAM text, CSV, TUM), gzipped or "
-            "not.",
+            help="Logs: a folder (MRCLAM, CSV) or a file (g2o, GTSAM text, CSV, TUM, NDJSON), "
+            "gzipped or not.",
         ),
     ],
     target: Annotated[
@@ -90,10 +90,11 @@ def convert(
     options: dict[str, Any] = {"classes": classes, "start": starts, "identities": identities}
     with progress_bar() as progress:
         name = readers.format_of(source, read_as)
-        asked = name == "csv" or wanted == "turtle"
+        looks_up = "knowledge" in readers.FORMATS[name].options
+        asked = looks_up or wanted == "turtle"
         knowledge = load_knowledge(ontology, progress) if asked else None
         progress("reading", 0.2)
-        options["knowledge"] = knowledge if name == "csv" else None
+        options["knowledge"] = knowledge if looks_up else None
         mission, notes = readers.read_mission(source, name, **options)
         found = readers.read_estimate(source, mission, name) or dead_reckoned(mission, every)
         progress("writing", 0.7)

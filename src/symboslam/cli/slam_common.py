@@ -19,7 +19,9 @@ if TYPE_CHECKING:
 
 FromOption = Annotated[
     str | None,
-    typer.Option("--from", help="mrclam, csv, g2o, gtsam or tum.", show_default="by content"),
+    typer.Option(
+        "--from", help="mrclam, csv, g2o, gtsam, tum or ndjson.", show_default="by content"
+    ),
 ]
 ClassesOption = Annotated[
     int | None,
@@ -73,9 +75,10 @@ def knowledge_for(
     read_as: str, outs: Sequence[Path], ontology: Path | None, progress: Progress
 ) -> Knowledge | None:
     """The ontology, where a reader or a writer asks for it."""
-    from symboslam.engine.slam import writers
+    from symboslam.engine.slam import readers, writers
 
-    if read_as == "csv" or any(writers.format_of(out) == "turtle" for out in outs):
+    asks = read_as in readers.FORMATS and "knowledge" in readers.FORMATS[read_as].options
+    if asks or any(writers.format_of(out) == "turtle" for out in outs):
         return load_knowledge(ontology, progress)
     return None
 
@@ -141,6 +144,25 @@ def tell_doubts(doubts: Sequence[str]) -> None:
     """Print on standard error why a map should not be trusted."""
     for doubt in doubts:
         show(f"doubt: {doubt}", error=True)
+
+
+def starts_of(mission: Mission) -> dict[str, str]:
+    """Robot -> which start of it is used.
+
+    ``known``: it was given; ``first``: nobody's is known, and the map is laid through that of the
+    first robot; ``none``: it has to be found.
+    """
+    known = {log.name for log in mission.robots if log.start is not None}
+    alone = not known and all(log.fixes is None for log in mission.robots)
+    return {
+        log.name: "known" if log.name in known else "first" if alone and n == 0 else "none"
+        for n, log in enumerate(mission.robots)
+    }
+
+
+def robots_lost(slam_map: SlamMap, mission: Mission) -> list[str]:
+    """Robots that have no place in a map."""
+    return [log.name for log in mission.robots if log.name not in slam_map.trajectories]
 
 
 def plural(number: int, one: str, many: str | None = None) -> str:

@@ -19,6 +19,8 @@ from symboslam.cli.slam_common import (
     estimator,
     knowledge_for,
     origin_of,
+    robots_lost,
+    starts_of,
     tell_doubts,
     write_outs,
 )
@@ -106,11 +108,13 @@ def mrclam(
     wrote = [f"wrote {file.resolve()}" for file in files]
     if as_json:
         figures = {name: result.figures.to_json() for name, result in results.items()}
-        values = figures.pop("ours") | figures | {"doubts": list(doubts), "notes": notes}
+        values = figures.pop("ours") | figures
+        values |= {"starts": starts_of(mission), "robots_lost": robots_lost(ours.slam_map, mission)}
+        values |= {"doubts": list(doubts), "notes": notes}
         sys.stdout.write(json.dumps(values, indent=2) + "\n")
         show(*wrote, error=True)
     else:
-        show(_table(results), *notes, *wrote)
+        show(_table(results), *_lost(results), *notes, *wrote)
 
 
 def _check_picture(picture: Path | None) -> None:
@@ -154,6 +158,7 @@ def _table(results: dict[str, Result]) -> Table:
         "matched",
         "duplicates",
         "wrong merges",
+        "lost",
         "s",
     )
     shown = table("map", *head, title="Errors against the truth")
@@ -175,8 +180,19 @@ def _table(results: dict[str, Result]) -> Table:
         counts = (figures.duplicates, figures.wrong_merges)
         mistakes = ["-" if value is None else str(value) for value in counts]
         numbers = ["-" if value is None else f"{value:.3f}" for value in metres]
-        shown.add_row(NAMES[name], *numbers, matched, *mistakes, f"{figures.seconds:.1f}")
+        lost = str(len(figures.robots_missing))
+        shown.add_row(NAMES[name], *numbers, matched, *mistakes, lost, f"{figures.seconds:.1f}")
     return shown
+
+
+def _lost(results: dict[str, Result]) -> list[str]:
+    """Who is lost, and so in no mean; a line for each map."""
+    return [
+        f"{NAMES[name]}: lost and in none of the errors of paths: "
+        f"{', '.join(result.figures.robots_missing)}"
+        for name, result in results.items()
+        if result.figures.robots_missing
+    ]
 
 
 def _draw(picture: Path, result: Result, mission: Mission) -> None:

@@ -26,6 +26,8 @@ from symboslam.cli.slam_common import (
     knowledge_for,
     origin_of,
     plural,
+    robots_lost,
+    starts_of,
     tell_doubts,
     write_outs,
 )
@@ -42,7 +44,9 @@ symboslam slam run mrclam6 --classes 4 --out landmarks.geojson --out paths.tum
 
 symboslam slam run victoria_park.txt.gz --identities hidden --out park.g2o
 
-symboslam slam run robot1.csv robot2.csv --out map.ttl --json
+symboslam slam run odometry.csv detections.csv --out map.ttl --json
+
+symboslam slam run r1.ndjson r2.ndjson --out map.geojson
 
 symboslam slam run mrclam6 --method paper --oracle --out paper.geojson
 """
@@ -61,8 +65,8 @@ def run(
         list[Path],
         typer.Argument(
             metavar="LOG",
-            help="A folder (MRCLAM, CSV) or a file (g2o, GTSAM text, CSV, TUM), gzipped or not; "
-            "of CSV also several files.",
+            help="A folder (MRCLAM, CSV) or a file (g2o, GTSAM text, CSV, TUM, NDJSON of agents), "
+            "gzipped or not; of CSV and NDJSON also several files.",
             show_default=False,
         ),
     ],
@@ -104,7 +108,7 @@ def run(
         name = readers.format_of(source, read_as)
         knowledge = knowledge_for(name, outs, ontology, progress)
         progress("reading", 0.05)
-        options["knowledge"] = knowledge if name == "csv" else None
+        options["knowledge"] = knowledge if "knowledge" in readers.FORMATS[name].options else None
         mission, notes = readers.read_mission(source, name, **options)
         begun = time.perf_counter()
         found = _map(mission, method, oracle, between(progress, 0.1, 0.9))
@@ -140,6 +144,8 @@ def _summary(found: SlamMap, mission: Mission, method: Method, seconds: float) -
     moving = int(found.landmarks.dynamic.sum())
     return {
         "method": str(method),
+        "starts": starts_of(mission),
+        "robots_lost": robots_lost(found, mission),
         "robots": [
             {
                 "name": log.name,

@@ -134,3 +134,21 @@ def test_an_increment_that_does_not_begin_where_the_one_before_ended_is_left_out
         "robot 1: increments that do not begin where the one before ended, left out: 1"
     ]
     assert found.solve().trajectories["robot 1"].time[-1] == one[1].time[-1]
+
+
+def test_numbers_far_ahead_are_left_out_and_told(mission: Mission) -> None:
+    found = increments(mission, mission.robots[0])
+    far = [replace(found[0], sequence=n) for n in (1000 + len(found), 2**52)]
+    mixed = collective(mission, [*found, *far])
+    assert mixed.notes == [
+        "increments of robot 1 numbered more than 1000 beyond the highest that had come, left out: "
+        "2"
+    ]
+    expected = collective(mission, found).solve()
+    assert mixed.solve().landmarks.xy.tolist() == expected.landmarks.xy.tolist()
+
+
+def test_missing_increments_are_counted_up_to_a_limit(mission: Mission) -> None:
+    first = increments(mission, mission.robots[0])[0]
+    late = collective(mission, [first, *(replace(first, sequence=n * 1000) for n in range(1, 9))])
+    assert late.notes == ["robot 1: increments 1, 2, 3, 4, 5 are missing; later ones wait"]

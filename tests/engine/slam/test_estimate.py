@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from symboslam.engine.slam.comparison import measure
 from symboslam.engine.slam.estimate import estimate
 from symboslam.engine.slam.log import Fixes, Floats, Mission, RobotLog
 from symboslam.engine.slam.odometry import pose_at
@@ -243,6 +244,21 @@ def test_ranges_or_bearings_alone_of_named_landmarks_are_used(missing: str) -> N
     assert wrong_merges(mission, found) == 0
 
 
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_start_that_is_wrong_is_told_by_name(seed: int) -> None:
+    mission = simulate(replace(SMALL, robots=3, known_starts=3), seed)
+    assert estimate(mission).doubts == ()
+
+    def moved(log: RobotLog) -> RobotLog:
+        x, y, heading = log.start or (0.0, 0.0, 0.0)
+        return replace(log, start=(x + 30 * (log.name == "robot 2"), y, heading))
+
+    found = estimate(changed(mission, moved))
+    assert max(errors(mission, found).values()) > 5
+    told = [doubt for doubt in found.doubts if "the start that it was given" in doubt]
+    assert told[0].startswith("robot 2: ")
+
+
 def test_robots_that_see_each_other_help_each_other() -> None:
     mission = simulate(
         replace(SMALL, landmarks=1, meetings=True, side=80.0, reach=80.0, known_starts=2), SEED
@@ -253,11 +269,15 @@ def test_robots_that_see_each_other_help_each_other() -> None:
     assert sum(with_meetings.values()) < sum(without.values())
 
 
-def test_many_outliers_leave_a_doubt_and_no_wrong_path() -> None:
-    mission = simulate(replace(SMALL, outliers=0.4), SEED)
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_many_outliers_are_doubted_and_bend_no_path(seed: int) -> None:
+    mission = simulate(replace(SMALL, outliers=0.4), seed)
     found = estimate(mission)
-    assert found.doubts
-    assert max(errors(mission, found).values()) < min(dead_reckoning(mission).values())
+    # Measured: 0.53, 0.35 and 0.38 m; dead reckoning is at least 16.5, 10.8 and 6.7 m off.
+    assert max(errors(mission, found).values()) < 0.8
+    for name in ("robot 1", "robot 2"):
+        (said,) = [doubt for doubt in found.doubts if doubt.startswith(f"{name}: ")]
+        assert "sightings are of nothing that was seen again" in said
 
 
 def test_classes_that_are_mistaken_often_merge_nothing_wrongly() -> None:
@@ -268,9 +288,21 @@ def test_classes_that_are_mistaken_often_merge_nothing_wrongly() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [1, 2])
-def test_three_robots_of_a_town_of_which_one_knows_where_it_began(seed: int) -> None:
+@pytest.mark.parametrize(("seed", "landmarks", "path"), [(1, 1.5, 1.0), (2, 3.0, 3.0)])
+def test_three_robots_of_a_town_of_which_one_knows_where_it_began(
+    seed: int, landmarks: float, path: float
+) -> None:
     mission = simulate(World(known_starts=1), seed)
-    found = estimate(mission)
+    result = measure(lambda: estimate(mission), mission)
+    found, figures = result.slam_map, result.figures
     assert wrong_merges(mission, found) == 0
     assert len(found.trajectories) == 3
+    # Measured: 0.96 and 2.12 m aligned, paths 0.67 and 2.04 m; in the frame of the map, which one
+    # start alone hardly turns, paths are 8.2 and 17.4 m off, and that is told.
+    assert figures.landmark_rmse_m is not None
+    assert figures.ate_max_m is not None
+    assert figures.landmark_rmse_m < landmarks
+    assert figures.ate_max_m < path
+    assert max(errors(mission, found).values()) < 12 * landmarks
+    (said,) = found.doubts
+    assert "landmarks may be off by more than 16 m" in said

@@ -84,6 +84,8 @@ GOOD = EdgeIncrement(
         ("robot", "", "robot is empty"), ("robot", "a\nb", "do not print"),
         ("run", "x" * 300, "at most 256"), ("run", 7, "run is no text"),
         ("sequence", -1, "sequence"), ("sequence", True, "sequence"), ("sequence", 2**60, "seque"),
+        ("sequence", 3.0, "sequence is no whole number from 0 on"), ("sequence", "3", "sequence"),
+        ("row", [10_000_000], "row: row 0 is not below 10000000"),
         ("start", [1, 2], "three numbers"), ("start", [1, 2, float("inf")], "three numbers"),
         ("start_sigma", [1, 0, 1], "start_sigma: row 1 is not above 0"),
         ("time", [2.0, 2.0], "time: row 1 is not after"), ("time", [1.0], "step has 2 rows"),

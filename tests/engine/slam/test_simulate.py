@@ -71,6 +71,13 @@ def test_some_sightings_have_another_class() -> None:
     assert 0.2 < np.mean(wrong) < 0.4
 
 
+def test_in_a_world_of_one_class_nothing_is_mistaken() -> None:
+    mission = simulate(replace(TINY, classes=1, misclassified=0.5), 3)
+    assert mission.classes == ("class 1",)
+    assert all((log.seen.feature == 0).all() for log in mission.robots)
+    assert sum(len(log.seen) for log in mission.robots) > 50
+
+
 def test_a_world_without_landmarks_has_no_sightings() -> None:
     mission = simulate(replace(TINY, landmarks=0), 3)
     assert [len(log.seen) for log in mission.robots] == [0, 0]

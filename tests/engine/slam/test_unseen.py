@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import pytest
+
 from symboslam.engine.slam.joint import JointGraph, Member
 from symboslam.engine.slam.settings import SlamSettings
 from symboslam.engine.slam.unseen import unseen
@@ -40,6 +42,21 @@ def test_what_another_saw_and_nobody_else_counts_for_both(robot: Any) -> None:
     assert (first, of_first) == (1, IN_VIEW + 1)
     assert second == 1
     assert of_second >= 1
+
+
+@pytest.mark.parametrize(
+    ("before", "missed"),
+    [((28.0, 0.0), 0), ((28.0, 8.0), 1), ((32.0, 0.0), 1)],
+    ids=["before it", "beside it", "behind it"],
+)
+def test_what_something_nearer_hides_is_expected_of_nobody(
+    robot: Any, before: tuple[float, float], missed: int
+) -> None:
+    house = {NEAR + 1: [(n, *before) for n in range(18, 28)]}
+    seen = {NEAR: [(n, 30, 0) for n in range(18, 22)]}
+    # In view from 22 to 29; what is at 28 is seen at less than 0.8 of the distance up to 27.
+    (first, _), _ = counts(robot("one", STRAIGHT, AHEAD | house), robot("other", STRAIGHT, seen))
+    assert first == missed
 
 
 def test_what_was_seen_twice_only_is_expected_of_nobody(robot: Any) -> None:

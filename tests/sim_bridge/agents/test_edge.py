@@ -11,15 +11,15 @@ import httpx
 import pytest
 
 from symboslam.engine.slam.increment import EdgeIncrement
-from symboslam.errors import InputError
-from symboslam.sim_bridge.agents.edge import EdgeAgent
-from symboslam.sim_bridge.agents.link import Link, LinkDownError, Patience, RefusedError
-from symboslam.sim_bridge.agents.records import (
+from symboslam.engine.slam.readers.records import (
     FixRecord,
     OdometryRecord,
     Record,
     SightingRecord,
 )
+from symboslam.errors import InputError
+from symboslam.sim_bridge.agents.edge import EdgeAgent
+from symboslam.sim_bridge.agents.link import Link, LinkDownError, Patience, RefusedError
 from symboslam.sim_bridge.agents.replay import paced, run_of
 from symboslam.sim_bridge.agents.sender import Sender
 from symboslam.sim_bridge.agents.spool import Spool, SpoolFullError

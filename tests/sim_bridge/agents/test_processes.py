@@ -48,8 +48,11 @@ class Agents:
     def __init__(self, folder: Path) -> None:
         self.folder, self.running = folder, list["subprocess.Popen[str]"]()
 
-    def __call__(self, *options: object, **given: Any) -> "subprocess.Popen[str]":
-        command = [sys.executable, "-m", "tests.sim_bridge.agents.fakes", "agent"]
+    def __call__(
+        self, *options: object, true: bool = False, **given: Any
+    ) -> "subprocess.Popen[str]":
+        module = "symboslam" if true else "tests.sim_bridge.agents.fakes"
+        command = [sys.executable, "-m", module, "agent"]
         process = subprocess.Popen(
             [*command, *map(str, options)], cwd=ROOT, text=True, stderr=subprocess.PIPE,
             env={**os.environ, "SYMBOSLAM_TOKEN": TOKEN}, **given,
@@ -120,6 +123,12 @@ def check(client: httpx.Client, which: str, robots: dict[str, int]) -> list[dict
     np.testing.assert_allclose(places, sorted(HOUSES), atol=1e-2)
     assert {f["properties"]["agent"] for f in landmarks} == {"control"}
     return found
+
+
+def has_spool(process: "subprocess.Popen[str]") -> bool:
+    """Whether an agent has opened its spool."""
+    files = Path(f"/proc/{process.pid}/fd").glob("*")
+    return any(os.readlink(file).endswith(".sqlite3") for file in files if file.is_symlink())
 
 
 def test_two_robots_a_control_agent_and_everything_that_breaks(
@@ -198,6 +207,45 @@ def test_robots_of_one_name_and_signals(agents: Agents, tmp_path: Path) -> None:
         said = control.communicate(timeout=60)[1]
         assert control.returncode == 130, said
         assert "two robots at a time are called r1" in said
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_signals_at_any_time_end_agents_without_a_word(
+    agents: Agents, tmp_path: Path, number: signal.Signals
+) -> None:
+    """With the true mapper and a service that hangs now and then, so that threads are waiting."""
+    chance, log = random.Random(3), written(tmp_path, "r1", 20.0, 10.0)
+    with serve(tmp_path / "data", rate="none") as (server, client):
+        which, url = make(client), str(client.base_url)
+        control = agents("control", "--map", which, "--to", url, "--every", 0.2, true=True)
+        for n in range(6):
+            one = agents.edge(
+                log, "r1", which, url, "--start", "0,20,0", "--speed", 2, true=True
+            )  # fmt: skip
+            until(lambda one=one: has_spool(one))  # type: ignore[misc]
+            time.sleep(chance.uniform(0.0, 1.5))
+            if n % 2:
+                server.send_signal(signal.SIGSTOP)
+                time.sleep(0.3)
+            one.send_signal(number)
+            said = one.communicate(timeout=60)[1]
+            server.send_signal(signal.SIGCONT)
+            assert one.returncode == 130, said
+            assert "Traceback" not in said
+            assert "xception" not in said
+            assert "Fatal" not in said
+        time.sleep(1.0)
+        control.send_signal(number)
+        said = control.communicate(timeout=60)[1]
+        assert control.returncode == 130, said
+        assert "Traceback" not in said
+        assert "xception" not in said
+        last = agents.edge(log, "r1", which, url, "--start", "0,20,0", true=True)
+        assert last.communicate(timeout=60)[1].endswith("is delivered\n")
+        mine = fetched(client, which)
+        assert sorted(each["sequence"] for each in mine) == list(range(len(mine)))
+        times = [t for each in sorted(mine, key=lambda e: e["sequence"]) for t in each["time"]]
+        assert times == [n / 2 for n in range(21)]
 
 
 @pytest.mark.slow

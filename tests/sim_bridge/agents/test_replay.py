@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from symboslam.engine.slam.log import Measurements, Mission, Odometry, RobotLog
+from symboslam.engine.slam.readers.records import OdometryRecord, SightingRecord
 from symboslam.errors import InputError
 from symboslam.reasoning.knowledge import Knowledge
-from symboslam.sim_bridge.agents.records import OdometryRecord, SightingRecord
 from symboslam.sim_bridge.agents.replay import is_mission, read, robot_of
 
 

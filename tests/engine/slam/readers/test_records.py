@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from symboslam.engine.slam.log import Fixes, Measurements, Odometry, RobotLog
-from symboslam.errors import InputError
-from symboslam.sim_bridge.agents.records import (
+from symboslam.engine.slam.readers.records import (
     FixRecord,
     OdometryRecord,
     SightingRecord,
@@ -15,6 +14,7 @@ from symboslam.sim_bridge.agents.records import (
     parse,
     read,
 )
+from symboslam.errors import InputError
 
 
 def test_records_are_read() -> None:
