@@ -10,6 +10,7 @@ from string import Template
 from typing import TYPE_CHECKING
 
 from symboslam.errors import OutputError
+from symboslam.sim_bridge.table import paper
 from symboslam.sim_bridge.table.figures import pooled, verdicts
 from symboslam.sim_bridge.table.finished import Finished
 from symboslam.sim_bridge.table.tables import (
@@ -134,6 +135,9 @@ def _text(missions: Sequence[Finished], mapped: Sequence[Finished]) -> dict[str,
         "machine": " and ".join(machines),
         "version": __version__,
         "how": _how(mapped or missions),
+        "drift": f"{paper.DRIFT_M / 1000:g}",
+        "iou": f"{paper.IOU:g}",
+        "iou_in_text": f"{paper.IOU_IN_TEXT:g}",
         "short": (
             f"**Not the paper's time: {', '.join(short)}. These figures say nothing but that it "
             "runs.**\n\n"

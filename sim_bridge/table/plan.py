@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from symboslam.errors import InputError
-from symboslam.sim_bridge.search.paper_areas import AREAS, PaperArea
+from symboslam.sim_bridge.search.paper_areas import AREAS
 
 SPEED = 15.0
 """Metres a second of the robots, in all areas."""
@@ -48,11 +48,6 @@ class Plan:
     speed: float = SPEED
     reach: float = REACH
     mapped: bool = True
-
-    @property
-    def paper(self) -> PaperArea | None:
-        """The paper's area of that name, if it is one."""
-        return AREAS.get(self.name)
 
     @property
     def cost(self) -> float:

@@ -73,7 +73,8 @@ def draw_maps(one: Finished, knowledge: Knowledge, target: Path) -> None:
                 axis.plot(*at, dashes, color="white", lw=2.0, alpha=0.6, zorder=3)
                 axis.plot(*at, dashes, color=colour, lw=1.0, alpha=0.9, zorder=4)
         size = float(np.clip(45 / np.sqrt(len(marks) + 1), 0.8, 3.6))
-        axis.plot(*marks.T, "o", color=INK, ms=size, mec="white", mew=0.25, zorder=5)
+        edge = 0.25 if size > 1.5 else 0.0
+        axis.plot(*marks.T, "o", color=INK, ms=size, mec="white", mew=edge, zorder=5)
         axis.set_title(title, fontsize=11, color=INK)
         frame(axis, one)
     handles: list[Any] = [
@@ -167,8 +168,7 @@ def draw_errors(missions: Sequence[Finished], target: Path) -> None:
             values = np.maximum(one.errors[:, n], 0.01)
             axes.plot(minutes, values, dashes, color=colour, lw=1.6, label=label)
         axes.set_yscale("log")
-        low, high = axes.get_ylim()
-        axes.set_ylim(max(min(low, 0.5), 0.05), max(high, 10))
+        axes.set_ylim(0.5, max(axes.get_ylim()[1], 10))
         if one.metrics["area_km2"] < paper.SMALL_KM2:
             text = f"asked of landmarks: {paper.LANDMARK_M:g} m"
             axes.axhline(paper.LANDMARK_M, color="#d1478f", lw=1, label=text)

@@ -235,6 +235,29 @@ def test_make_results_keeps_the_part_about_missions(tmp_path: Path) -> None:
     assert around(ROOT / "docs" / "results.md")
 
 
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["city", "--time-limit", "0"], "--time-limit 0"),
+        (["city", "--speed", "99"], "--speed 99"),
+        (["city", "--range", "0"], "--range 0"),
+        (["city", "--search", "magic"], "magic"),
+        (["atlantis"], "atlantis"),
+        (["--from", "nowhere"], "no finished mission"),
+    ],
+)
+def test_what_is_refused_before_anything_is_flown(
+    words: list[str], told: str, tmp_path: Path
+) -> None:
+    pytest.importorskip("pybullet")
+    folder, page = tmp_path / "record", tmp_path / "page.md"
+    _, _, error = table(*words, "--record", folder, "--out", page)
+    assert isinstance(error, SymboSlamError)
+    assert told in str(error)
+    assert not folder.exists()
+    assert not page.exists()
+
+
 # ---- end to end
 
 
