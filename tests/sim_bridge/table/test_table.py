@@ -5,6 +5,8 @@ from __future__ import annotations
 import importlib.util
 import json
 import math
+import multiprocessing
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -334,16 +336,18 @@ def test_ctrl_c_keeps_what_is_finished(tmp_path: Path) -> None:
     from symboslam.sim_bridge.table.workers import run_all
 
     first = Plan("first", str(yard(tmp_path / "a.json")), 0.1, robots=1, mapped=False)
-    second = Plan("second", str(yard(tmp_path / "b.json")), 0.05, robots=1, mapped=False)
+    second = Plan("second", str(yard(tmp_path / "b.json")), 1000.0, robots=1, mapped=False)
 
     def tell(name: str, stage: str, share: float) -> None:
         if name == "first" and share == 1:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        run_all([second, first], tmp_path / "record", 1, tell)  # the longer one is flown first
+        run_all([first, second], tmp_path / "record", 2, tell)
     assert is_finished(first, tmp_path / "record")
     assert not is_finished(second, tmp_path / "record")
+    assert not multiprocessing.active_children()
+    second = replace(second, minutes=0.05)
     assert run_all([second], tmp_path / "record", 1, lambda *_: None) == {}
     assert is_finished(second, tmp_path / "record")
     code, output, error = table("--from", tmp_path / "record", "--out", tmp_path / "page.md")
