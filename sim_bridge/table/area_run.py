@@ -32,6 +32,8 @@ if TYPE_CHECKING:
     from symboslam.sim_bridge.table.along import BeliefRecorder
 
 Tell = Callable[[str, float], None]
+FAILURE = "error.txt"
+"""Where a mission that failed says why: a line, and where in the program it was."""
 SEGMENTATIONS = ("grid", "branch")
 
 
@@ -176,6 +178,15 @@ def _write(target: Path, text: str) -> None:
 
     with atomic_file(target) as stream:
         stream.write(text.encode())
+
+
+def note_failure(here: Path, text: str) -> None:
+    """Leave word of a failure in a mission's folder, as far as it can be written."""
+    try:
+        here.mkdir(parents=True, exist_ok=True)
+        (here / FAILURE).write_text(text, encoding="utf-8")
+    except OSError:
+        return
 
 
 def metrics_of(folder: Path) -> dict[str, Any]:

@@ -15,7 +15,7 @@ import numpy as np
 from symboslam.errors import InputError
 from symboslam.sim_bridge.search.area import Floats
 from symboslam.sim_bridge.search.paper_areas import AREAS, PaperArea
-from symboslam.sim_bridge.table.area_run import metrics_of
+from symboslam.sim_bridge.table.area_run import FAILURE, metrics_of
 from symboslam.sim_bridge.table.plan import MANY
 
 if TYPE_CHECKING:
@@ -153,6 +153,15 @@ def finished_in(folder: Path, names: Sequence[str] = ()) -> list[Finished]:
     order = {name: n for n, name in enumerate((*AREAS, MANY))}
     wanted = sorted(names or found, key=lambda name: (order.get(name, len(order) - 1.5), name))
     return [Finished(found[name], metrics_of(found[name])) for name in wanted]
+
+
+def failures_in(folder: Path) -> dict[str, str]:
+    """Name -> what went wrong, of the missions of a folder that failed and did not end since."""
+    return {
+        path.parent.name: path.read_text(encoding="utf-8").partition("\n")[0]
+        for path in sorted(folder.glob(f"*/{FAILURE}"))
+        if not (path.parent / "metrics.json").exists()
+    }
 
 
 def _numbers(path: Path) -> Floats:

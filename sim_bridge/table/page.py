@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from datetime import UTC, datetime
 from importlib.resources import files
 from pathlib import Path
@@ -34,6 +34,7 @@ def write_page(
     knowledge: Knowledge,
     out: Path,
     tell: Callable[[str, float], None] | None = None,
+    failed: Mapping[str, str] | None = None,
 ) -> list[Path]:
     """Draw all pictures beside a page, and write the part between its marks.
 
@@ -42,6 +43,7 @@ def write_page(
         knowledge: the environments, and what landmarks indicate.
         out: the page; it is made if it is not there. Pictures go to ``images`` beside it.
         tell: is told what is done.
+        failed: name -> what went wrong, of missions that have no figures.
 
     Returns:
         The files that were written, the page first.
@@ -89,6 +91,10 @@ def write_page(
         _text(missions, mapped)
         | curves
         | {
+            "failed": "".join(
+                f"**Failed, and in no figure: {name} ({text}).**\n\n"
+                for name, text in (failed or {}).items()
+            ),
             "verdicts": verdict_table(verdicts(missions, together)),
             "mas": mas_table(missions),
             "slam": slam_table(missions),

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import signal
+import traceback
 from collections.abc import Callable, Sequence
 from multiprocessing import get_context
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import SpawnProcess
 from pathlib import Path
 
-from symboslam.sim_bridge.table.area_run import run_area
+from symboslam.sim_bridge.table.area_run import note_failure, run_area
 from symboslam.sim_bridge.table.plan import Plan
 
 Tell = Callable[[str, str, float], None]
@@ -85,7 +86,9 @@ def _work(plan: Plan, folder: Path, connection: Connection, jobs: int) -> None:
     try:
         with threadpool_limits(max(1, (os.cpu_count() or 1) // jobs)):
             run_area(plan, folder, tell)
-    except Exception as error:  # whatever it was: the other missions go on, and the table says it
-        connection.send((f"{type(error).__name__}: {error}", None))
+    except Exception as error:  # whatever it was: the other missions go on, and the page says it
+        text = " ".join(f"{type(error).__name__}: {error}".split())
+        note_failure(folder / plan.name, f"{text[:300]}\n\n{traceback.format_exc()}")
+        connection.send((text[:300], None))
         return
     connection.send(("done", 1.0))

@@ -103,13 +103,15 @@ def table(
             robots=robots, search=search, slam=str(slam), speed=speed, reach=reach, seed=seed,
             world_seed=world_seed,
         )  # fmt: skip
-    from symboslam.sim_bridge.table.finished import finished_in
+    from symboslam.sim_bridge.table.finished import failures_in, finished_in
 
     if source is None and not names:
         raise SymboSlamError(_failures(failed))
     with progress_bar() as progress:
         missions = finished_in(folder, names)
-        written = write_page(missions, load_knowledge(None, progress), out, progress)
+        written = write_page(
+            missions, load_knowledge(None, progress), out, progress, failures_in(folder)
+        )
     show("\n".join(f"wrote {path.resolve()}" for path in written))
     if failed:
         raise SymboSlamError(_failures(failed))

@@ -328,6 +328,9 @@ def test_missions_are_flown_once_and_drawn_again(tmp_path: Path) -> None:
     assert isinstance(error, SymboSlamError)
     assert "crowd failed: InputError: 99 robots" in str(error)
     assert not (folder / "crowd" / "metrics.json").exists()
+    assert "Traceback" in (folder / "crowd" / "error.txt").read_text()
+    assert table("--from", folder, "--out", page)[0] == 0
+    assert "**Failed, and in no figure: crowd (InputError: 99 robots" in page.read_text()
 
 
 def test_ctrl_c_keeps_what_is_finished(tmp_path: Path) -> None:
