@@ -66,12 +66,13 @@ def draw_maps(one: Finished, knowledge: Knowledge, target: Path) -> None:
     shown: set[str | None] = set()
     for axis, (title, areas, paths, marks) in zip(axes, panels, strict=True):
         shown |= draw_areas(axis, areas, {name: colour for name, (_, colour) in colours.items()})
+        width = _width(paths, e.width)
         for n, name in enumerate(sorted(one.true_paths)):
             if name in paths:
                 colour, dashes = robot_line(n)
                 at = paths[name][:, 1:3].T
-                axis.plot(*at, dashes, color="white", lw=2.0, alpha=0.6, zorder=3)
-                axis.plot(*at, dashes, color=colour, lw=1.0, alpha=0.9, zorder=4)
+                axis.plot(*at, color="white", lw=2 * width, alpha=0.5 * width, zorder=3)
+                axis.plot(*at, dashes, color=colour, lw=width, alpha=0.9, zorder=4)
         size = float(np.clip(45 / np.sqrt(len(marks) + 1), 0.8, 3.6))
         edge = 0.25 if size > 1.5 else 0.0
         axis.plot(*marks.T, "o", color=INK, ms=size, mec="white", mew=edge, zorder=5)
@@ -97,6 +98,12 @@ def draw_maps(one: Finished, knowledge: Knowledge, target: Path) -> None:
         fontsize=13, weight="bold", color=INK,
     )  # fmt: skip
     save(figure, target)
+
+
+def _width(paths: dict[str, Floats], side: float) -> float:
+    """Points that paths are wide: the thinner, the more often they cross the area."""
+    ways = sum(float(np.hypot(*np.diff(path[:, 1:3], axis=0).T).sum()) for path in paths.values())
+    return float(np.clip(15 * side / max(ways, 1e-9), 0.4, 1.0))
 
 
 def draw_areas(axes: Axes, source: Path, colours: dict[str, str]) -> set[str | None]:
