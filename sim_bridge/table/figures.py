@@ -44,6 +44,27 @@ def pooled(
     return evaluate_pairs(pairs, cells=CELLS, knowledge=knowledge).result
 
 
+def from_true_landmarks(
+    missions: Sequence[Finished], segmentation: str, knowledge: Knowledge
+) -> Result | None:
+    """As ``pooled``, but of maps from all objects of the worlds at their true places.
+
+    It tells what the classification alone leaves to be wished for: search, sensors and map building
+    have no part in it.
+    """
+    from symboslam.engine.classify import classify
+    from symboslam.engine.evaluation import evaluate_pairs
+    from symboslam.engine.readers import read_landmarks
+
+    pairs = []
+    for one in missions:
+        if one.plan["mapped"] and one.world.zones and one.world.objects:
+            objects = read_landmarks(one.folder / "record" / "objects.geojson", knowledge)
+            found = classify(objects, knowledge, scheme="territory-plan", segmentation=segmentation)
+            pairs.append((one.folder / "record" / "zones.geojson", found))
+    return evaluate_pairs(pairs, cells=CELLS, knowledge=knowledge).result if pairs else None
+
+
 @dataclass(frozen=True)
 class Verdict:
     """What is asked for, and what came out.

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from symboslam.errors import OutputError
 from symboslam.sim_bridge.table import paper
-from symboslam.sim_bridge.table.figures import pooled, verdicts
+from symboslam.sim_bridge.table.figures import from_true_landmarks, pooled, verdicts
 from symboslam.sim_bridge.table.finished import Finished
 from symboslam.sim_bridge.table.tables import (
     mas_table,
@@ -87,6 +87,8 @@ def write_page(
             curves[name] = _picture(text, written[-1])
     tell("scoring all areas together", 0.7)
     together = {name: pooled(mapped, name, knowledge) for name in ("grid", "branch")}
+    tell("classifying the true landmarks", 0.8)
+    true = {name: from_true_landmarks(mapped, name, knowledge) for name in ("grid", "branch")}
     part = (
         _text(missions, mapped)
         | curves
@@ -98,7 +100,7 @@ def write_page(
             "verdicts": verdict_table(verdicts(missions, together)),
             "mas": mas_table(missions),
             "slam": slam_table(missions),
-            "results": result_table(missions, together),
+            "results": result_table(missions, together, true),
             "maps": "\n\n".join(shown),
             "speed": speed_table(missions),
         }

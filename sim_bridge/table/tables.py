@@ -70,8 +70,18 @@ def slam_table(missions: Sequence[Finished]) -> str:
     return markdown(head, rows)
 
 
-def result_table(missions: Sequence[Finished], together: dict[str, Result | None]) -> str:
-    """Environment maps: IoU, AP, accuracy and macro-F1 of both segmentations."""
+def result_table(
+    missions: Sequence[Finished],
+    together: dict[str, Result | None],
+    true: dict[str, Result | None],
+) -> str:
+    """Environment maps: IoU, AP, accuracy and macro-F1 of both segmentations.
+
+    Args:
+        missions: one row each.
+        together: segmentation -> figures of all together.
+        true: segmentation -> the same from the true landmarks.
+    """
     head = ["area", "cells"]
     for name in SEGMENTATIONS:
         head += [f"{name}: IoU", "AP", "accuracy", "macro-F1"]
@@ -84,13 +94,15 @@ def result_table(missions: Sequence[Finished], together: dict[str, Result | None
         found = [maps.get(name) for name in SEGMENTATIONS]
         cells = next((str(f["cells"]) for f in found if f), DASH)
         rows.append([one.name, cells, *_scores([f and f["all"] for f in found]), DASH, DASH])
-    results = [together.get(name) for name in SEGMENTATIONS]
-    if any(results):
-        scores: list[dict[str, Any] | None] = [vars(r.all) if r else None for r in results]
-        cells = next(str(r.cells) for r in results if r)
-        rows.append([
-            "**pooled**", cells, *_scores(scores), f"{paper.IOU:.2f}", f"{paper.AP:.3f}",
-        ])  # fmt: skip
+    for label, pool, theirs in (
+        ("**pooled**", together, [f"{paper.IOU:.2f}", f"{paper.AP:.3f}"]),
+        ("pooled, true landmarks", true, [DASH, DASH]),
+    ):
+        results = [pool.get(name) for name in SEGMENTATIONS]
+        if any(results):
+            scores: list[dict[str, Any] | None] = [vars(r.all) if r else None for r in results]
+            cells = next(str(r.cells) for r in results if r)
+            rows.append([label, cells, *_scores(scores), *theirs])
     return markdown(head, rows)
 
 

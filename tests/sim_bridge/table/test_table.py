@@ -21,7 +21,7 @@ from symboslam.errors import InputError, OutputError, SymboSlamError
 from symboslam.reasoning.knowledge import Knowledge
 from symboslam.sim_bridge.table.along import errors_along, first_seen
 from symboslam.sim_bridge.table.area_run import is_finished
-from symboslam.sim_bridge.table.figures import pooled, verdicts, wall_minutes
+from symboslam.sim_bridge.table.figures import from_true_landmarks, pooled, verdicts, wall_minutes
 from symboslam.sim_bridge.table.finished import Finished, finished_in
 from symboslam.sim_bridge.table.page import MARKS, around, write_page
 from symboslam.sim_bridge.table.plan import MANY, REACH, SPEED, Plan, plans
@@ -192,6 +192,28 @@ def test_the_team_beside_the_papers_where_it_is_known(tmp_path: Path) -> None:
     assert "| 2 of 2 | 1.5 |" in one
 
 
+def test_true_landmarks_do_not_depend_on_the_map(tmp_path: Path, knowledge: Knowledge) -> None:
+    none = recorded(tmp_path, "city", [square("Residential", 0, 240)], [])
+    at = {"type": "Point", "coordinates": [120, 120]}
+    house = {"type": "Feature", "geometry": at, "properties": {"class": "House"}}
+    objects = {"type": "FeatureCollection", "crs_units": "m", "bbox": [0, 0, 240, 240]}
+    (none.folder / "record" / "objects.geojson").write_text(
+        json.dumps(objects | {"features": [house]})
+    )
+    assert from_true_landmarks([none], "branch", knowledge) is None  # a world of no objects
+    world = none.folder / "record" / "world.json"
+    document = json.loads(world.read_text())
+    document["objects"] = [{"id": "h", "class": "House", "x": 120, "y": 120}]
+    world.write_text(json.dumps(document))
+    again = Finished(none.folder, none.metrics)
+    true = from_true_landmarks([again], "branch", knowledge)
+    mapped = pooled([again], "branch", knowledge)
+    assert true is not None
+    assert mapped is not None
+    assert mapped.all.accuracy == 0
+    assert true.all.accuracy > 0.2
+
+
 # ---- plans, folders, pages
 
 
@@ -308,6 +330,10 @@ def test_missions_are_flown_once_and_drawn_again(tmp_path: Path) -> None:
     assert math.isfinite(mission.object_seen[0])
     scores = pooled([mission], "branch")
     assert scores is not None
+    best = from_true_landmarks([mission], "branch", Knowledge.load())
+    assert best is not None
+    assert best.cells == scores.cells == 576
+    assert "| pooled, true landmarks | 576 |" in text
     assert scores.all.mean_iou == pytest.approx(mission.metrics["map"]["branch"]["all"]["mean_iou"])
 
     flown = (folder / "yard" / "metrics.json").read_bytes()
