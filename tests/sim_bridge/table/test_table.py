@@ -384,11 +384,12 @@ def test_ctrl_c_keeps_what_is_finished(tmp_path: Path) -> None:
     assert "not measured" in (tmp_path / "page.md").read_text()
 
 
-def test_a_film(tmp_path: Path, knowledge: Knowledge) -> None:
+def test_a_film(tmp_path: Path, knowledge: Knowledge, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("pybullet")
     pytest.importorskip("gtsam")
     from PIL import Image
 
+    from symboslam.sim_bridge.table import film as films
     from symboslam.sim_bridge.table.area_run import run_area
     from symboslam.sim_bridge.table.film import STILL, draw_film
 
@@ -399,5 +400,7 @@ def test_a_film(tmp_path: Path, knowledge: Knowledge) -> None:
     with Image.open(tmp_path / "film.gif") as film:
         assert 3 <= getattr(film, "n_frames") <= 5 + STILL  # noqa: B009 - of GIFs alone
         assert film.width > 600
+    monkeypatch.setattr(films, "draw_film", lambda one, knows, target: target.write_bytes(b"GIF"))
     written = write_page([mission], knowledge, tmp_path / "page.md")
     assert tmp_path / "images" / "sim-city.gif" in written
+    assert "(images/sim-city.gif)" in (tmp_path / "page.md").read_text()
