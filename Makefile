@@ -15,8 +15,10 @@ STAMP := .venv/.installed-$(shell pwd -P | cksum | cut -d ' ' -f 1)
 BENCHMARK ?= ../shared/benchmark
 UPSTREAM ?= ../shared/upstream
 SEED ?= 7
+DEMO ?= demo
+ARGS ?=
 
-.PHONY: help demo test test-slow lint format bench query-page docs knowledge pitfalls results slam-results picture proofs acceptance system wheel clean
+.PHONY: help demo sample test test-slow lint format bench query-page docs knowledge pitfalls results slam-results sim-results picture proofs acceptance system wheel clean
 
 help: ## list the targets
 	@grep -E '^[a-z.][a-z.-]*:.*## ' Makefile | sed -E 's/^([a-z.-]+):.*## /\1\t/' | expand -t 14
@@ -36,12 +38,18 @@ $(STAMP): .venv/.created pyproject.toml constraints.txt service/page/yasgui.sha5
 	rm -f .venv/.installed-*
 	touch $@
 
-demo: $(STAMP) ## make a sample town, classify it, write an explained map
-	@mkdir -p demo
-	$(RUN) sample --seed $(SEED) --out demo/landmarks.geojson
-	$(RUN) classify demo/landmarks.geojson --out demo/map.geojson --out demo/map.html \
-	  --out demo/map.png
-	echo "Open in a browser: $$(pwd)/demo/map.html"
+demo: $(STAMP) ## three simulated robots search and map a small town: figures and a map, about a minute
+	@mkdir -p $(DEMO)
+	$(RUN) sim run demo --time-limit 2 --seed $(SEED) --out $(DEMO)/map.html \
+	  --out $(DEMO)/map.geojson --out $(DEMO)/map.png
+	echo "Open in a browser, offline: $$(realpath $(DEMO))/map.html"
+
+sample: $(STAMP) ## make a sample town of landmarks, classify it, write an explained map
+	@mkdir -p demo/town
+	$(RUN) sample --seed $(SEED) --out demo/town/landmarks.geojson
+	$(RUN) classify demo/town/landmarks.geojson --out demo/town/map.geojson \
+	  --out demo/town/map.html --out demo/town/map.png
+	echo "Open in a browser: $$(pwd)/demo/town/map.html"
 
 test: $(STAMP) ## run the tests (some minutes), but for the proofs
 	@$(PY) -m pytest -n 2 --dist loadfile -m "not slow and not network and not proof and not robot"
@@ -64,6 +72,9 @@ bench: $(STAMP) ## measure speed and memory, write bench/RESULTS.md (some minute
 slam-results: $(STAMP) ## measure map building, write its part of docs/map-building.md (10 minutes)
 	@BENCHMARK="$(BENCHMARK)" $(PY) -m bench --only slam --into docs/map-building.md
 
+sim-results: $(STAMP) ## fly all areas of the paper, write their part of docs/results.md (about an hour; goes on where it was)
+	@$(RUN) sim table --record build/sim-table $(ARGS)
+
 query-page: ## fetch YASGUI for the query page (needs npm; `make .venv` does it where it can)
 	@scripts/query-page
 
@@ -81,7 +92,7 @@ pitfalls: $(STAMP) ## scan our ontology for pitfalls, write pitfall_reports/ (an
 results: $(STAMP) ## score against the benchmark in $(BENCHMARK), write docs/results.md
 	@$(PY) scripts/results.py --benchmark "$(BENCHMARK)"
 
-picture: demo ## take the picture in the README anew (needs Chromium)
+picture: sample ## take the picture in the README anew (needs Chromium)
 	@scripts/readme-picture
 
 proofs: $(STAMP) ## prove the ontology sound, by reasoners (needs Java; with Maven ROBOT checks it as well)

@@ -22,12 +22,14 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[1]
 METRICS = {"accuracy": "OA", "kappa": "kappa", "macro_f1": "macro-F1", "mean_iou": "mean IoU",
            "map": "mAP"}  # fmt: skip
+NOT_FLOWN = "Not flown yet: `make sim-results`."
 PROFILES = ("default", "paper")
 SEGMENTATIONS = ("grid", "branch")
 KINDS = {"osm": "OpenStreetMap areas", "sim": "simulated areas"}
 INTRO = """# Results
 
-Made by `make results`. Do not edit. {date}, symboslam {version}.
+Made by `make results`; the part about simulated missions, at the end, by `make sim-results`. Do
+not edit. {date}, symboslam {version}.
 
 Each area is a file of landmarks; the truth is its real land use (OpenStreetMap areas) or what the
 paper's authors say that they placed (simulated areas). All cells with a truth count; unknown is
@@ -49,7 +51,8 @@ def main() -> None:
     if not (chosen.benchmark / "score_all.py").is_file():
         sys.exit(f"no benchmark in {chosen.benchmark}: name its folder, make results BENCHMARK=...")
     scores = {p: score(chosen.benchmark.resolve(), chosen.set, p) for p in PROFILES}
-    chosen.out.write_text(report(scores, baselines(chosen.benchmark, chosen.set)), encoding="utf-8")
+    text = report(scores, baselines(chosen.benchmark, chosen.set))
+    chosen.out.write_text(f"{text}\n{missions(chosen.out)}\n", encoding="utf-8")
     print(f"wrote {chosen.out}")
 
 
@@ -74,6 +77,17 @@ def score(benchmark: Path, name: str, profile: str) -> dict[str, Any]:
     if failed:
         sys.exit(f"profile {profile} failed on {', '.join(failed)}; nothing written")
     return result
+
+
+def missions(page: Path) -> str:
+    """The part about simulated missions, which `make sim-results` writes: as it is."""
+    from symboslam.sim_bridge.table.page import MARKS, around
+
+    if not page.is_file():
+        return "\n\n".join([MARKS[0], "## Simulated missions", NOT_FLOWN, MARKS[1]])
+    before, after = around(page)
+    text = page.read_text(encoding="utf-8")
+    return MARKS[0] + text[len(before) : len(text) - len(after)] + MARKS[1]
 
 
 def baselines(benchmark: Path, name: str) -> dict[str, Any]:
