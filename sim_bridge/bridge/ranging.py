@@ -8,6 +8,7 @@ rays that hit something else do not agree with it.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,8 +19,9 @@ from symboslam.sim_bridge.bridge.settings import CameraSpec
 from symboslam.sim_bridge.objects.bullet import ROUND
 from symboslam.sim_bridge.worlds.sizes import SIZES
 
-SIGMA_RANGE, SHARE_DEPTH = 0.7, 0.2
-"""Deviation of a range: metres, and a share of the mean of the class's length and width."""
+SIGMA_RANGE, SHARE_DEPTH = 0.7, 0.1
+"""Deviation of a range: metres, and a share of the mean of the class's length and width, beside
+what its unknown turn does."""
 SIGMA_BEARING, SHARE_WIDTH = 0.01, 0.1
 """Deviation of a bearing: radians, and the angle of that share of the mean side.
 
@@ -29,10 +31,16 @@ AGREE = 2.0
 """A ray may measure so many times more or less than the height of the box tells."""
 FOOT = 0.8
 """Share by which a range may differ from where the foot of the box is."""
-BOX_DEPTH, ROUND_DEPTH = 0.29, 0.25
-"""Of length and width together: from the front of a thing to its middle, on the average."""
-MIDDLE = 0.6
+ROUND_DEPTH = 0.25
+"""Of length and width together: from the front of a round thing to its middle."""
+TURNS = np.radians(np.arange(0.5, 90))
+"""Angles between the line of sight and the heading of a thing, that are tried."""
+LIKE = 0.1, 0.3
+"""A box may be wider or narrower than such a thing looks: a share of that, and metres."""
+MIDDLE = 0.4
 """Share of a box's width, around its middle, in which rays count."""
+NEAREST = 0.25
+"""Of the rays that hit a round thing, such as a tree, this share hit its front."""
 GROUND = 30.0
 """Metres up to which the foot of a box on the ground gives a range where no ray does."""
 
@@ -76,7 +84,11 @@ def expected_range(detection: Detection, spec: CameraSpec) -> float:
 
 
 def measure(
-    detection: Detection, lidar: Lidar, pose: tuple[float, float, float], spec: CameraSpec
+    detection: Detection,
+    lidar: Lidar,
+    pose: tuple[float, float, float],
+    spec: CameraSpec,
+    others: Sequence[Detection] = (),
 ) -> Measured | None:
     """Range and bearing of a detection.
 
@@ -85,6 +97,7 @@ def measure(
         lidar: casts the rays.
         pose: of the robot; only the rays' origin.
         spec: of the camera.
+        others: what else is in the picture; what stands before the thing takes its rays.
 
     Returns:
         None if it is not wholly in frame.
@@ -96,28 +109,54 @@ def measure(
     bearing = bearing_of(middle, spec)
     half = MIDDLE * (right - left) / 2
     scan = lidar.between(pose, bearing_of(middle + half, spec), bearing_of(middle - half, spec))
+    free = np.ones(len(scan.bearing), bool)
+    for other in others:
+        if other.box[3] > detection.box[3]:
+            first, last = bearing_of(other.box[2], spec), bearing_of(other.box[0], spec)
+            free &= (scan.bearing < first) | (scan.bearing > last)
     low, high = (edge / math.cos(bearing) for edge in front_of(detection, spec))
-    hits = scan.range[(scan.range > low) & (scan.range < high)]
-    behind = half_depth(detection.kind)
+    hits = scan.range[free & (scan.range > low) & (scan.range < high)]
     if len(hits):
-        return _measured(float(np.quantile(hits, 0.25)) + behind, bearing, detection.kind)
+        share = NEAREST if detection.kind in ROUND else 0.5
+        return _measured(float(np.quantile(hits, share)), bearing, detection, spec)
     near, far = (ground / math.cos(bearing) for ground in foot_of(detection, spec))
     if far < GROUND and low <= (near + far) / 2 <= high:
-        return _measured((near + far) / 2 + behind, bearing, detection.kind)
+        return _measured((near + far) / 2, bearing, detection, spec)
     return Measured(math.nan, bearing, (math.nan, math.nan))
 
 
-def _measured(distance: float, bearing: float, kind: str) -> Measured:
-    side = (SIZES[kind].length + SIZES[kind].width) / 2
-    along = math.hypot(SIGMA_RANGE, SHARE_DEPTH * side)
-    across = math.hypot(SIGMA_BEARING, SHARE_WIDTH * side / distance)
-    return Measured(distance, bearing, (along, across))
+def _measured(front: float, bearing: float, detection: Detection, spec: CameraSpec) -> Measured:
+    """From the range of a thing's front to that of its middle."""
+    left, _, right, _ = detection.box
+    angle = bearing_of(left, spec) - bearing_of(right, spec)
+    depth, spread = half_depth(detection.kind, 2 * front * math.tan(angle / 2))
+    size = SIZES[detection.kind]
+    side = (size.length + size.width) / 2
+    along = math.hypot(SIGMA_RANGE, SHARE_DEPTH * side, spread)
+    across = math.hypot(SIGMA_BEARING, SHARE_WIDTH * side / (front + depth))
+    return Measured(front + depth, bearing, (along, across))
 
 
-def half_depth(kind: str) -> float:
-    """Metres from the front of a thing of nominal size to its middle, over all sides."""
+def half_depth(kind: str, width: float) -> tuple[float, float]:
+    """Metres from the front of a thing to its middle along the line of sight, and how sure.
+
+    A thing of nominal size that looks so wide can only be turned some ways; each has its depth.
+
+    Args:
+        kind: its class.
+        width: metres from the left to the right of it, as it looks.
+    """
     size = SIZES[kind]
-    return (ROUND_DEPTH if kind in ROUND else BOX_DEPTH) * (size.length + size.width)
+    if kind in ROUND:
+        return ROUND_DEPTH * (size.length + size.width), 0.0
+    sin, cos = np.sin(TURNS), np.cos(TURNS)
+    looks = size.length * sin + size.width * cos
+    depth = np.minimum(size.length / cos, size.width / sin) / 2
+    width = min(max(width, float(looks.min())), float(looks.max()))
+    share, metres = LIKE
+    weight = np.exp(-0.5 * ((looks - width) / (share * looks + metres)) ** 2)
+    mean = float((weight * depth).sum() / weight.sum())
+    return mean, float(np.sqrt((weight * (depth - mean) ** 2).sum() / weight.sum()))
 
 
 def foot_of(detection: Detection, spec: CameraSpec) -> tuple[float, float]:

@@ -15,9 +15,9 @@ from symboslam.sim_bridge.bridge.stock import Stock, model_of, scale_of
 from symboslam.sim_bridge.objects.bullet import FLAT, ROUND, Bodies, import_pybullet
 from symboslam.sim_bridge.objects.catalogue import ShapeError, placeholder, shape
 
-LOAD = 85.0
+LOAD = 105.0
 """Metres around a robot within which objects are there."""
-KEEP = 125.0
+KEEP = 145.0
 """Metres from all robots beyond which they go; more than ``LOAD``, so that none comes and goes."""
 WALL = 0.3
 """Metres that a wall is thick."""

@@ -141,8 +141,9 @@ class EdgeAgent:
         kinds = {body: self._kinds[n] for body, n in self.scene.object_of.items()}
         found = []
         here = self.pose
-        for detection in self._detector.detect(picture, kinds):
-            measured = measure(detection, self._lidar, eye, self.camera.spec)
+        detections = self._detector.detect(picture, kinds)
+        for detection in detections:
+            measured = measure(detection, self._lidar, eye, self.camera.spec, detections)
             if measured is None:
                 continue
             ranged = math.isfinite(measured.range)

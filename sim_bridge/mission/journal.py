@@ -16,6 +16,9 @@ from symboslam.engine.slam.log import (
 
 Pose = tuple[float, float, float]
 
+START_SIGMA = (0.01, 0.01, 0.002)
+"""Standard deviations of where a robot begins, in metres and radians: a place that was surveyed."""
+
 
 @dataclass(frozen=True)
 class Seen:
@@ -96,5 +99,6 @@ class Journal:
                 np.array([x.sigma[1] for x in s], float),
             ),
             self.start,
+            START_SIGMA,
             fixes=fixes,
         )

@@ -23,6 +23,7 @@ from symboslam.sim_bridge.bridge.scene import Scene
 from symboslam.sim_bridge.bridge.settings import BridgeSettings
 from symboslam.sim_bridge.bridge.stock import Stock
 from symboslam.sim_bridge.mission.edge_agent import EdgeAgent
+from symboslam.sim_bridge.mission.journal import START_SIGMA
 from symboslam.sim_bridge.search.area import Area
 from symboslam.sim_bridge.worlds.checks import free_starts
 from symboslam.sim_bridge.worlds.sizes import CLASSES
@@ -166,7 +167,7 @@ def assemble(world: World, settings: MissionSettings, knowledge: Knowledge) -> T
                 Gps(bridge.gps, rngs[3]) if bridge.gps else None,
                 EdgeMapper(
                     robot.name, classes.names, classes.dynamic, start=start,
-                    noise=noise_of(bridge.odometry), settings=MAPPING,
+                    start_sigma=START_SIGMA, noise=noise_of(bridge.odometry), settings=MAPPING,
                 ),
                 label,
                 start,
