@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from symboslam.engine.classify import classify
 from symboslam.engine.environment_map import EnvironmentMap
 from symboslam.engine.evaluation import Evaluation, evaluate
 from symboslam.engine.readers import read_landmarks
@@ -24,6 +23,7 @@ from symboslam.engine.slam.writers import write_slam_map
 from symboslam.errors import InputError
 from symboslam.reasoning.knowledge import Knowledge
 from symboslam.sim_bridge.mission.mission import Outcome
+from symboslam.sim_bridge.mission.survey import classify_survey
 from symboslam.sim_bridge.mission.team import MAPPING, Team
 from symboslam.sim_bridge.worlds.truth import zones_geojson
 from symboslam.sim_bridge.worlds.world import World
@@ -108,7 +108,7 @@ def conclude(
         if not document["features"]:
             break
         landmarks = read_landmarks(document, knowledge)
-        found = classify(landmarks, knowledge, scheme="territory-plan", segmentation=name)
+        found = classify_survey(landmarks, knowledge, name)
         kept = found if name == segmentation else kept
         if team.world.zones:
             scores[name] = figures(

@@ -134,9 +134,9 @@ def run_area(plan: Plan, folder: Path, tell: Tell) -> None:
 
 def _write_maps(result: Result, here: Path, knowledge: Knowledge) -> None:
     """Both environment maps; empty ones, unknown everywhere, where nothing was seen."""
-    from symboslam.engine.classify import classify
     from symboslam.engine.readers import read_landmarks
     from symboslam.engine.writers import write_map
+    from symboslam.sim_bridge.mission.survey import classify_survey
 
     document = json.loads((here / "record" / "landmarks.geojson").read_text(encoding="utf-8"))
     for name in SEGMENTATIONS:
@@ -146,7 +146,7 @@ def _write_maps(result: Result, here: Path, knowledge: Knowledge) -> None:
             continue
         if name != "grid":
             landmarks = read_landmarks(document, knowledge)
-            found = classify(landmarks, knowledge, scheme="territory-plan", segmentation=name)
+            found = classify_survey(landmarks, knowledge, name)
         write_map(found, target)
 
 

@@ -52,15 +52,15 @@ def from_true_landmarks(
     It tells what the classification alone leaves to be wished for: search, sensors and map building
     have no part in it.
     """
-    from symboslam.engine.classify import classify
     from symboslam.engine.evaluation import evaluate_pairs
     from symboslam.engine.readers import read_landmarks
+    from symboslam.sim_bridge.mission.survey import classify_survey
 
     pairs = []
     for one in missions:
         if one.plan["mapped"] and one.world.zones and one.world.objects:
             objects = read_landmarks(one.folder / "record" / "objects.geojson", knowledge)
-            found = classify(objects, knowledge, scheme="territory-plan", segmentation=segmentation)
+            found = classify_survey(objects, knowledge, segmentation)
             pairs.append((one.folder / "record" / "zones.geojson", found))
     return evaluate_pairs(pairs, cells=CELLS, knowledge=knowledge).result if pairs else None
 

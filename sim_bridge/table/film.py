@@ -204,8 +204,8 @@ def _map_at(one: Finished, knowledge: Knowledge, time: float) -> EnvironmentMap 
     """The environment map of what was in view by a time; unknown where nobody was."""
     import shapely
 
-    from symboslam.engine.classify import classify
     from symboslam.engine.readers import read_landmarks
+    from symboslam.sim_bridge.mission.survey import classify_survey
 
     document = deepcopy(one.landmarks)
     document["features"] = [
@@ -224,4 +224,4 @@ def _map_at(one: Finished, knowledge: Knowledge, time: float) -> EnvironmentMap 
     if not around.is_empty:
         document["surveyed"] = json.loads(shapely.to_geojson(shapely.set_precision(around, 0.01)))
     landmarks = read_landmarks(document, knowledge)
-    return classify(landmarks, knowledge, scheme="territory-plan", segmentation="grid")
+    return classify_survey(landmarks, knowledge, "grid")

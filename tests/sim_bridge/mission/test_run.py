@@ -15,9 +15,11 @@ import pytest
 from typer.testing import CliRunner
 
 from symboslam.cli.main import app
+from symboslam.engine.readers import read_landmarks
 from symboslam.engine.slam.readers import read_mission
 from symboslam.errors import InputError, MissingExtraError, OutputError
 from symboslam.reasoning.knowledge import Knowledge
+from symboslam.sim_bridge.mission.survey import classify_survey
 from symboslam.sim_bridge.worlds.generator import world_by_name
 from symboslam.sim_bridge.worlds.world_file import read_world, write_world
 
@@ -103,6 +105,10 @@ def test_a_whole_mission(tmp_path: Path) -> None:
     assert json.loads((record / "config.json").read_text())["seed"] == 2
     for name in ("map.geojson", "landmarks.geojson", "zones.geojson", "objects.geojson"):
         assert json.loads((record / name).read_text())["features"]
+    landmarks = read_landmarks(record / "landmarks.geojson", Knowledge.load())
+    expected = classify_survey(landmarks, Knowledge.load(), "grid")
+    config = json.loads((record / "map.geojson").read_text())["symboslam"]["config"]
+    assert config["bandwidth"] == expected.config["bandwidth"]
     result = CliRunner().invoke(app, ["slam", "run", str(record), "--json"])
     assert result.exit_code == 0, result.output
     assert json.loads(result.stdout)["landmarks"] > 20
