@@ -79,10 +79,22 @@ class EdgeMapper:
         return x, y, heading
 
     @property
-    def covariance(self) -> Floats | None:
-        """(3, 3) of `pose`, in the robot's own frame; None before the first update of the map."""
+    def solved(self) -> int:
+        """Key poses at the last update of the map; 0 before the first."""
         edge = self._run.edge_map()
-        return None if edge is None else edge.latest_covariance()
+        return 0 if edge is None else edge.solved
+
+    @property
+    def covariance(self) -> Floats:
+        """(3, 3) of the last key pose that was solved, in the robot's own frame.
+
+        Raises:
+            RuntimeError: none was solved yet.
+        """
+        edge = self._run.edge_map()
+        if edge is None or not edge.solved:
+            raise RuntimeError("nothing was solved yet")
+        return edge.covariance(edge.solved - 1)
 
     @property
     def key_odometry(self) -> Pose:

@@ -191,9 +191,10 @@ class EdgeMap:
         """(3, 3) of a key pose, in its own frame."""
         return np.asarray(self._isam.marginalCovariance(factors.pose_key(0, number)))
 
-    def latest_covariance(self) -> Floats | None:
-        """(3, 3) of the last key pose that was solved, in its own frame; None for none."""
-        return self.covariance(self._done - 1) if self._done else None
+    @property
+    def solved(self) -> int:
+        """Key poses at the last update."""
+        return 0 if self.trouble else self._done
 
     def _read(self, number: int) -> None:
         pose = self._isam.calculateEstimatePose2(factors.pose_key(0, number))

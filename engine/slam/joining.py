@@ -33,8 +33,6 @@ def silent(what: str, share: float) -> None:
 
 FULL = 50
 """Iterations of a solution that has far to go, or that is the last, at most."""
-REPAIRS = 6
-"""So many times a robot is mapped again, at most."""
 CERTAINTIES = (1.0, 0.7, 1.5)
 """A robot is mapped again with so many times the certainty; that counts with which it meets most
 of the others."""
@@ -126,7 +124,7 @@ class Joining:
         A robot that is wrong makes those doubted that saw it, so one at a time.
         """
         tried: set[int] = set()
-        for _ in range(REPAIRS):
+        for _ in range(self._settings.repairs):
             left = {n: self._excess(n) for n in self.doubts if n not in tried}
             if not left or len(self.placed) < 2:
                 break

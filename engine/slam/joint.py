@@ -211,23 +211,39 @@ class JointGraph:
     def marginals(self) -> None:
         """Work out the covariances of the landmarks.
 
+        A graph that hardly says where a thing is is solved by QR, which is slower and more exact
+        than Cholesky; where that fails as well, the thing may be anywhere.
+
         Raises:
             RuntimeError: the graph does not say where everything is.
         """
+        try:
+            self._eliminate()
+            self.covariance = {label: self._marginal(label) for label in self.labels()}
+        except RuntimeError:
+            self._eliminate(gtsam.EliminateQR)
+            self.covariance = {label: self._marginal_or_loose(label) for label in self.labels()}
+
+    def _eliminate(self, *how: Any) -> None:
         linear = self._graph.linearize(self._values)
         ordering = gtsam.Ordering.ColamdGaussianFactorGraph(linear)
+        self._tree = linear.eliminateMultifrontal(ordering, *how)
+
+    def _marginal(self, label: int) -> Floats:
+        return np.asarray(self._tree.marginalCovariance(factors.landmark_key(label)))
+
+    def _marginal_or_loose(self, label: int) -> Floats:
         try:
-            self._tree = linear.eliminateMultifrontal(ordering)
+            return self._marginal(label)
         except RuntimeError:
-            self._tree = linear.eliminateMultifrontal(ordering, gtsam.EliminateQR)
-        self.covariance = {
-            label: np.asarray(self._tree.marginalCovariance(factors.landmark_key(label)))
-            for label in self.labels()
-        }
+            return np.eye(2) * (10 * self.spacing) ** 2
 
     def pose_covariance(self, member: int, number: int) -> Floats:
         """(3, 3) of a key pose, in its own frame, after `marginals`."""
-        return np.asarray(self._tree.marginalCovariance(factors.pose_key(member, number)))
+        try:
+            return np.asarray(self._tree.marginalCovariance(factors.pose_key(member, number)))
+        except RuntimeError:
+            return np.diag([*(2 * [(100 * self.spacing) ** 2]), np.pi**2])
 
     def _add_member(
         self, graph: Any, values: Any, number: int, member: Member, loss: factors.Loss

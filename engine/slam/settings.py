@@ -26,6 +26,7 @@ class SlamSettings:
         floor: metres by which merged landmarks may lie apart beside their covariances, as a share
             of the standard deviation of ranges.
         rounds: of merging, at most.
+        repairs: so many times a doubted robot is mapped again, at most.
     """
 
     interval: float = 0.5
@@ -38,3 +39,4 @@ class SlamSettings:
     kernel: float = 2.0
     floor: float = 0.5
     rounds: int = 15
+    repairs: int = 6

@@ -82,7 +82,12 @@ class ControlAgent:
 
     def _coordinate(self, seconds: float) -> None:
         """Robot after robot chooses a target, and leaves to the others what they have chosen."""
-        active = [agent for agent in self._agents if not agent.lost]
+        active = []
+        for agent, leash in zip(self._agents, self._leash, strict=True):
+            if leash.goal is not None:
+                agent.target = None  # no time to lose on the way back
+            elif not agent.lost:
+                active.append(agent)
         claimed: list[Point] = []
         for agent in active:
             others = [

@@ -8,7 +8,6 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from symboslam.engine.slam.edge import EdgeMapper
-from symboslam.engine.slam.planar import between, compose
 from symboslam.sim_bridge.bridge.camera import Camera
 from symboslam.sim_bridge.bridge.detections import Detector
 from symboslam.sim_bridge.bridge.lidar import Lidar, Scan
@@ -98,22 +97,25 @@ class EdgeAgent:
         self._back = self._detour = 0.0
         self._side = 1
         self._anchor: tuple[Pose, Pose] = (start, (0.0, 0.0, 0.0))
+        self._solved, self._sigma = 0, 0.0
         self._kinds = [o.kind for o in scene.stock.objects]
 
     @property
     def pose(self) -> Pose:
         """Where it believes to be, in the collective frame."""
-        estimate, odometry = self._anchor
-        x, y, heading = compose(estimate, between(odometry, self._odometry.pose)).tolist()
-        return x, y, heading
+        (x, y, heading), (from_x, from_y, from_heading) = self._anchor
+        now_x, now_y, now_heading = self._odometry.pose
+        turn, dx, dy = heading - from_heading, now_x - from_x, now_y - from_y
+        return (
+            x + math.cos(turn) * dx - math.sin(turn) * dy,
+            y + math.sin(turn) * dx + math.cos(turn) * dy,
+            math.remainder(turn + now_heading, math.tau),
+        )
 
     @property
     def sigma(self) -> float:
         """Metres along one axis by which it may be elsewhere, as its map was last solved."""
-        covariance = self.mapper.covariance
-        if covariance is None:
-            return 0.0
-        return math.sqrt(max(covariance[0, 0] + covariance[1, 1], 0.0) / 2)
+        return self._sigma
 
     @property
     def lost(self) -> bool:
@@ -190,7 +192,11 @@ class EdgeAgent:
         if fix is not None and self._gps is not None:
             self.journal.fixes.append((time, *fix))
             self.mapper.fix(time, *fix, self._gps.spec.sigma)
-        self._anchor = (self.mapper.pose or self._start, self.mapper.key_odometry)
+        estimate = self.mapper.pose or self._start
+        self._anchor = (estimate, self.mapper.key_odometry)
+        if self.mapper.solved != self._solved:
+            self._solved, covariance = self.mapper.solved, self.mapper.covariance
+            self._sigma = math.sqrt(max(covariance[0, 0] + covariance[1, 1], 0.0) / 2)
 
     def choose(self, claimed: Sequence[Point], seconds: float) -> Target | None:
         """The nearest target that is not mapped yet, if any; the other robots' are left to them."""
