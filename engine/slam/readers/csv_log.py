@@ -263,7 +263,8 @@ def _detections(
         name: table.floats(name, empty=default) for name, default in SIGMAS.items() if name in table
     }
     for name, sigma in sigmas.items():
-        wrong = good & ~((sigma > 0) & np.isfinite(sigma))
+        measured = ~np.isnan(reach if name == "sigma_range" else bearing)
+        wrong = good & measured & ~((sigma > 0) & np.isfinite(sigma))
         if wrong.any():
             raise table.wrong(int(np.argmax(wrong)), name, "not above 0")
     feature = [classes.position_of(name) for name in table.texts("class")[index].tolist()]

@@ -29,9 +29,9 @@ def increments(
     seen = log.seen
     mapper = EdgeMapper(
         robot or log.name, mission.classes, mission.dynamic, run=run, start=log.start,
-        start_sigma=log.start_sigma, noise=log.odometry.noise, sigma_range=seen.sigma_range,
-        sigma_bearing=seen.sigma_bearing,
+        start_sigma=log.start_sigma, noise=log.odometry.noise,
     )  # fmt: skip
+    sigmas: list[list[float]] = seen.sigmas.tolist()
     found, row = [], 0
     for n, (time, pose) in enumerate(
         zip(log.odometry.time.tolist(), log.odometry.pose.tolist(), strict=True)
@@ -41,6 +41,7 @@ def increments(
             mapper.sighting(
                 seen.time[row].item(), seen.range[row].item(), seen.bearing[row].item(),
                 int(seen.feature[row]), seen.confidence[row].item(),
+                sigma=(sigmas[row][0], sigmas[row][1]),
             )  # fmt: skip
             row += 1
         if n % 20 == 19:
