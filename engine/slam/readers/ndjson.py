@@ -9,7 +9,16 @@ from pathlib import Path
 import numpy as np
 
 from symboslam.engine.readers.columns import FeatureIndex
-from symboslam.engine.slam.log import Fixes, Floats, Measurements, Mission, Odometry, RobotLog
+from symboslam.engine.slam.log import (
+    SIGMA_BEARING,
+    SIGMA_RANGE,
+    Fixes,
+    Floats,
+    Measurements,
+    Mission,
+    Odometry,
+    RobotLog,
+)
 from symboslam.engine.slam.readers.classes import Classes
 from symboslam.engine.slam.readers.records import (
     FixRecord,
@@ -89,7 +98,7 @@ def _log(file: Path, name: str, classes: Classes, notes: list[str]) -> RobotLog:
 
 def _sigmas(seen: Sequence[SightingRecord]) -> tuple[float | Floats, float | Floats]:
     """Deviations of ranges and bearings; one each for all if no sighting says its own."""
-    usual = Measurements.sigma_range, Measurements.sigma_bearing
+    usual = SIGMA_RANGE, SIGMA_BEARING
     if all(record.sigma is None for record in seen):
         return usual
     found = np.array([record.sigma or usual for record in seen], float)

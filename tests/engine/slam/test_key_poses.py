@@ -251,8 +251,9 @@ def test_a_deviation_that_cannot_be_is_left_out_and_counted(sigma: float) -> Non
 def test_the_deviation_of_what_was_not_measured_does_not_matter() -> None:
     found = driven(keys(), 2)
     (bearing,) = found.sighting(1, math.nan, 0.1, 0, 0.9, "", math.nan, 0.02)
-    (reach,) = found.sighting(1, 5, math.nan, 0, 0.9, "", 0.5, 0.0)
-    assert (bearing.sigma_bearing, reach.sigma_range) == (0.02, 0.5)
+    (reach,) = found.sighting(1, 5, math.nan, 0, 0.9, "", 0.4, 0.0)
+    assert (bearing.sigma_range, bearing.sigma_bearing) == (0.5, 0.02)
+    assert (reach.sigma_range, reach.sigma_bearing) == (0.4, 0.02)
 
 
 def test_a_log_replays_the_deviations_of_its_rows() -> None:
