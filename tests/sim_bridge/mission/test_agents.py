@@ -1,4 +1,4 @@
-"""The turning camera of a robot in pybullet."""
+"""A robot in pybullet turns its camera, stands at first, and is sent back."""
 
 from __future__ import annotations
 
@@ -12,8 +12,12 @@ pytest.importorskip("gtsam", reason="gtsam is not installed: pip install 'symbos
 
 from symboslam.reasoning.knowledge import Knowledge
 from symboslam.sim_bridge.bridge.settings import BridgeSettings, DetectorSpec
+from symboslam.sim_bridge.mission.control_agent import SCAN, ControlAgent
+from symboslam.sim_bridge.mission.edge_agent import EdgeAgent
+from symboslam.sim_bridge.mission.leash import LONG
 from symboslam.sim_bridge.mission.targets import Target
 from symboslam.sim_bridge.mission.team import MissionSettings, Team, assemble
+from symboslam.sim_bridge.search.registry import search_of
 from symboslam.sim_bridge.worlds.world import Extent, Start, World, WorldObject
 
 HEADING = 0.4
@@ -62,3 +66,22 @@ def test_each_second_picture_is_of_the_target(team: Team) -> None:
     there = math.pi / 2 - HEADING
     assert gazes[::2] == pytest.approx([there] * 4, abs=1e-6)
     assert sorted(round(math.degrees(gaze)) % 360 for gaze in gazes[1::2]) == [0, 90, 180, 270]
+
+
+def test_robots_stand_and_look_around_at_first(team: Team) -> None:
+    control = ControlAgent(team.agents, search_of("boustrophedon", team.area(), seed=0))
+    assert control.assign(0.0, 0.5) == {"robot 1": None}
+    assert control.assign(SCAN - 0.5, 0.5) == {"robot 1": None}
+    assert control.assign(SCAN, 0.5)["robot 1"] is not None
+
+
+def test_a_robot_that_knows_less_is_sent_back(team: Team, monkeypatch: pytest.MonkeyPatch) -> None:
+    (agent,) = team.agents
+    control = ControlAgent(team.agents, search_of("boustrophedon", team.area(), seed=0))
+    sigma = [0.0]
+    monkeypatch.setattr(EdgeAgent, "sigma", property(lambda _: sigma[0]))
+    goal = control.assign(SCAN, 0.5)["robot 1"]
+    sigma[0] = LONG + 1
+    assert control.assign(SCAN + 0.5, 0.5)["robot 1"] == agent.pose[:2] != goal
+    sigma[0] = 1.0
+    assert control.assign(SCAN + 1, 0.5)["robot 1"] == goal
