@@ -108,11 +108,15 @@ class Association:
         widest = max(float(np.trace(graph.covariance[label])) for label in known)
         reach = min(graph.spacing, 4 * math.sqrt(widest) + self.scale.sigma)
         xy = np.array([graph.xy[label] for label in known])
+        names: dict[int, set[str]] = {label: set() for label in known}
+        for piece in graph.pieces:
+            if piece.track.key and piece.label in names:
+                names[piece.label].add(piece.track.key)
         found = []
         for i, j in sorted(cKDTree(xy).query_pairs(reach)):
             one, other = known[i], known[j]
             alike = float(self.alike[self.place_of[one], self.place_of[other]])
-            if alike <= 0 or self._together(one, other) or self._named_apart(one, other):
+            if alike <= 0 or self._together(one, other) or _apart(names[one], names[other]):
                 continue
             covariance = graph.covariance[one] + graph.covariance[other] + floor
             times = len(self.times[one]) + len(self.times[other])
@@ -146,13 +150,6 @@ class Association:
         one, other = (np.linalg.inv(graph.covariance[label]) for label in (keep, gone))
         told = one @ graph.xy[keep] + other @ graph.xy[gone]
         graph.xy[keep] = np.asarray(np.linalg.solve(one + other, told), np.float64)
-
-    def _named_apart(self, one: int, other: int) -> bool:
-        names = [
-            {p.track.key for p in self.graph.pieces if p.label == label and p.track.key}
-            for label in (one, other)
-        ]
-        return bool(names[0] and names[1] and not names[0] & names[1])
 
     def constellations(self) -> tuple[int, bool]:
         """Merge landmarks whose constellations agree.
@@ -248,3 +245,8 @@ class Association:
         last = [next(p.track.last for p in window if p.label == label) for label in labels]
         base = (self.graph.settings.base * self.scale.sigma) ** 2
         return np.sqrt([[base + 2 * graph.drift(a, b) for b in last] for a in last])
+
+
+def _apart(one: set[str], other: set[str]) -> bool:
+    """Whether two landmarks have names, and none in common."""
+    return bool(one and other and not one & other)

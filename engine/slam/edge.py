@@ -10,7 +10,14 @@ from numpy.typing import NDArray
 from symboslam.engine.slam.increment import EdgeIncrement
 from symboslam.engine.slam.joining import Joining, silent
 from symboslam.engine.slam.key_poses import KeyPoses
-from symboslam.engine.slam.log import ROBOT, Floats, OdometryNoise, Pose
+from symboslam.engine.slam.log import (
+    ROBOT,
+    SIGMA_BEARING,
+    SIGMA_RANGE,
+    Floats,
+    OdometryNoise,
+    Pose,
+)
 from symboslam.engine.slam.outcome import outcome
 from symboslam.engine.slam.run import Run
 from symboslam.engine.slam.settings import SlamSettings
@@ -48,8 +55,8 @@ class EdgeMapper:
         start: Pose | None = None,
         start_sigma: Pose = (0.01, 0.01, 0.01),
         noise: OdometryNoise | None = None,
-        sigma_range: float = 0.5,
-        sigma_bearing: float = 0.02,
+        sigma_range: float = SIGMA_RANGE,
+        sigma_bearing: float = SIGMA_BEARING,
         settings: SlamSettings | None = None,
     ) -> None:
         self._settings = settings or SlamSettings()

@@ -301,9 +301,12 @@ class EdgeMap:
         spacing = self.scale.spacing(self._done)
         floor = self.settings.floor * self.scale.sigma
         landmarks = self._landmarks
-        alike = self.beliefs.alike(landmarks.evidence(fresh), landmarks.evidence(roots))
         away = landmarks.xy[fresh][:, None] - landmarks.xy[roots][None]
-        near = (alike > 0) & ((away**2).sum(2) < spacing**2)
+        near = (away**2).sum(2) < spacing**2
+        some = np.flatnonzero(near.any(0))  # the classes of the others do not matter
+        roots, away, near = [roots[n] for n in some], away[:, some], near[:, some]
+        alike = self.beliefs.alike(landmarks.evidence(fresh), landmarks.evidence(roots))
+        near &= alike > 0
         covariance: dict[int, Floats] = {}
         for i, j in np.argwhere(near).tolist():
             one, other = fresh[i], roots[j]

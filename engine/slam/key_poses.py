@@ -15,7 +15,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from symboslam.engine.slam.log import OdometryNoise, RobotLog
+from symboslam.engine.slam.log import SIGMA_BEARING, SIGMA_RANGE, OdometryNoise, RobotLog
 from symboslam.engine.slam.pose_graph import Fix, PoseGraph, Sighting
 
 STILL = 0.01, math.radians(0.5)
@@ -98,16 +98,20 @@ class KeyPoses:
     ) -> list[Sighting]:
         """What the robot saw; returns the sightings that can be placed.
 
-        Without ``row`` the sightings are numbered as they come.
+        Without ``row`` the sightings are numbered as they come. The deviation of what was not
+        measured may be anything; the usual one stands for it.
         """
-        sigma = sigma_range, sigma_bearing
+        sigma = (
+            SIGMA_RANGE if math.isnan(range) else sigma_range,
+            SIGMA_BEARING if math.isnan(bearing) else sigma_bearing,
+        )
         row = self._rows if row is None else row
         self._rows = row + 1
         if not math.isfinite(time) or (math.isnan(range) and math.isnan(bearing)):
             self.problems["measurements without time, or without range and bearing, left out"] += 1
         elif math.isinf(range) or math.isinf(bearing) or range <= 0:
             self.problems["measurements whose range or bearing cannot be, left out"] += 1
-        elif not (_sure(range, sigma_range) and _sure(bearing, sigma_bearing)):
+        elif not all(0 < each < math.inf for each in sigma):
             self.problems["measurements with a deviation not above 0, left out"] += 1
         elif not 0 < confidence <= 1:
             self.problems["measurements with a confidence outside (0, 1], left out"] += 1
@@ -196,11 +200,6 @@ class KeyPoses:
             one[1] + share * (other[1] - one[1]),
             one[2] + share * turn,
         )
-
-
-def _sure(value: float, sigma: float) -> bool:
-    """Whether a deviation can be, or is of what was not measured."""
-    return math.isnan(value) or 0 < sigma < math.inf
 
 
 def _step(one: Planar, other: Planar) -> Planar:

@@ -15,6 +15,9 @@ Pose = tuple[float, float, float]
 ROBOT = -1
 """Class of a robot that was seen."""
 
+SIGMA_RANGE, SIGMA_BEARING = 0.5, 0.02
+"""Metres and radians of sightings that do not say how good they are."""
+
 
 @dataclass(frozen=True)
 class OdometryNoise:
@@ -82,8 +85,8 @@ class Measurements:
     feature: Ints
     confidence: Floats
     key: NDArray[np.object_]
-    sigma_range: float | Floats = 0.5
-    sigma_bearing: float | Floats = 0.02
+    sigma_range: float | Floats = SIGMA_RANGE
+    sigma_bearing: float | Floats = SIGMA_BEARING
 
     def __len__(self) -> int:
         return len(self.time)

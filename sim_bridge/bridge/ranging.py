@@ -51,7 +51,7 @@ class Measured:
 
     Attributes:
         range: metres to its middle; NaN if it could not be measured.
-        bearing: radians to the left of the heading.
+        bearing: radians to the left of where the camera looks.
         sigma: standard deviations of both; of the range if it was measured.
     """
 
@@ -70,7 +70,7 @@ def whole(box: Box, spec: CameraSpec) -> bool:
 
 
 def bearing_of(column: float, spec: CameraSpec) -> float:
-    """Radians to the left of the heading, of a column of the picture (0 is its left edge)."""
+    """Radians to the left of where the camera looks, of a column (0 is the left edge)."""
     return math.atan2(spec.width / 2 - column, spec.focal)
 
 
@@ -95,7 +95,7 @@ def measure(
     Args:
         detection: of the picture that was taken from ``pose``.
         lidar: casts the rays.
-        pose: of the robot; only the rays' origin.
+        pose: of the robot, with the camera's heading; the rays' origin.
         spec: of the camera.
         others: what else is in the picture; what stands before the thing takes its rays.
 

@@ -33,6 +33,7 @@ class Leash:
         self._places: list[tuple[float, float, float]] = []
         self._tried: set[int] = set()
         self._at = -1
+        self._enough = 0.0
         self.goal: Point | None = None
 
     def pull(self, place: Point, sigma: float) -> Point | None:
@@ -47,6 +48,7 @@ class Leash:
             if sigma < self._places[self._at][2] + SHORT:
                 self.goal = None
                 self._tried.clear()
+                self._enough = 0.0
             elif math.dist(place, self.goal) < THERE:
                 self._tried.add(self._at)
                 self.goal = None
@@ -59,6 +61,10 @@ class Leash:
             self._places.append((*place, sigma))
 
     def _choose(self, place: Point, sigma: float) -> None:
+        if sigma < self._enough - 2 * LONG:
+            self._enough = 0.0
+        if sigma < self._enough:
+            return
         best, least = -1, math.inf
         for n, (x, y, then) in enumerate(self._places):
             cost = math.dist(place, (x, y)) / DEAR + then
@@ -69,4 +75,6 @@ class Leash:
             x, y, _ = self._places[best]
             self.goal = (x, y)
         elif self._tried:
+            # Nothing helped: free until it knows a good deal less, or a good deal more.
             self._tried.clear()
+            self._enough = sigma + LONG

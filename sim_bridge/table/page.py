@@ -179,7 +179,8 @@ def _how(missions: Sequence[Finished]) -> str:
                 f"{name} differs: " + ", ".join(f"{o.name} {o.plan[name]}" for o in missions)
             )
     return (
-        "All areas under one setting: " + ", ".join(parts) + "; camera of 90 degrees, no GPS"
+        "All areas under one setting: " + ", ".join(parts)
+        + "; a turning camera of 90 degrees, no GPS"
         + (", no oracle" if all(one.plan["slam"] != "oracle" for one in missions) else "") + "."
     )  # fmt: skip
 

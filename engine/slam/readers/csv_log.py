@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 
 from symboslam.engine.readers.columns import FeatureIndex
 from symboslam.engine.slam.log import (
+    SIGMA_BEARING,
+    SIGMA_RANGE,
     Fixes,
     Floats,
     Ints,
@@ -56,8 +58,7 @@ DETECTIONS = {
 }
 FIXES = {"time": TIME, "robot": ROBOT_NAMES, **PLACE, "sigma": ("std", "accuracy", "sigma_m")}
 STARTS = {"robot": ROBOT_NAMES, **PLACE, **HEADING}
-SIGMAS = {"sigma_range": 0.5, "sigma_bearing": 0.02}
-"""Metres and radians of detections that do not say how good they are."""
+SIGMAS = {"sigma_range": SIGMA_RANGE, "sigma_bearing": SIGMA_BEARING}
 SIGMA_FIX = 3.0
 """Metres of a fix that does not say how good it is: a plain GPS receiver under open sky."""
 ONLY_ROBOT = "Robot 1"
@@ -263,6 +264,7 @@ def _detections(
         name: table.floats(name, empty=default) for name, default in SIGMAS.items() if name in table
     }
     for name, sigma in sigmas.items():
+        sigma[np.isnan(reach if name == "sigma_range" else bearing)] = SIGMAS[name]
         wrong = good & ~((sigma > 0) & np.isfinite(sigma))
         if wrong.any():
             raise table.wrong(int(np.argmax(wrong)), name, "not above 0")

@@ -9,7 +9,16 @@ from pathlib import Path
 import numpy as np
 
 from symboslam.engine.readers.columns import FeatureIndex
-from symboslam.engine.slam.log import Fixes, Measurements, Mission, Odometry, RobotLog
+from symboslam.engine.slam.log import (
+    SIGMA_BEARING,
+    SIGMA_RANGE,
+    Fixes,
+    Floats,
+    Measurements,
+    Mission,
+    Odometry,
+    RobotLog,
+)
 from symboslam.engine.slam.readers.classes import Classes
 from symboslam.engine.slam.readers.records import (
     FixRecord,
@@ -81,9 +90,19 @@ def _log(file: Path, name: str, classes: Classes, notes: list[str]) -> RobotLog:
             np.array([classes.position_of(r.feature) for r in seen], np.int64),
             np.array([r.confidence for r in seen], float),
             key,
+            *_sigmas(seen),
         ),
         fixes=Fixes(fixes[:, 0], fixes[:, 1:3], fixes[:, 3]) if len(fixes) else None,
     )
+
+
+def _sigmas(seen: Sequence[SightingRecord]) -> tuple[float | Floats, float | Floats]:
+    """Deviations of ranges and bearings; one each for all if no sighting says its own."""
+    usual = SIGMA_RANGE, SIGMA_BEARING
+    if all(record.sigma is None for record in seen):
+        return usual
+    found = np.array([record.sigma or usual for record in seen], float)
+    return found[:, 0], found[:, 1]
 
 
 def _lines(file: Path) -> Iterator[str]:

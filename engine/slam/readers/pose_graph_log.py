@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 
 from symboslam.engine.slam.dead_reckoning import dead_reckoned
 from symboslam.engine.slam.log import (
+    SIGMA_BEARING,
+    SIGMA_RANGE,
     Closures,
     Fixes,
     Floats,
@@ -214,8 +216,8 @@ def _measurements(part: Chain, seen: list[Sighting], key: NDArray[np.object_]) -
         feature=np.zeros(len(seen), np.int64),
         confidence=np.ones(len(seen)),
         key=key,
-        sigma_range=_known([s.sigma_range for s in seen], 0.5),
-        sigma_bearing=_known([s.sigma_bearing for s in seen], 0.02),
+        sigma_range=_known([s.sigma_range for s in seen], SIGMA_RANGE),
+        sigma_bearing=_known([s.sigma_bearing for s in seen], SIGMA_BEARING),
     )
 
 

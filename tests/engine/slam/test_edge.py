@@ -11,7 +11,7 @@ pytest.importorskip("gtsam", reason="needs symboslam[slam]")
 from symboslam.engine.slam.control import CollectiveMap
 from symboslam.engine.slam.edge import EdgeMapper
 from symboslam.engine.slam.increment import EdgeIncrement
-from symboslam.engine.slam.log import Mission, RobotLog
+from symboslam.engine.slam.log import Mission, OdometryNoise, RobotLog
 from symboslam.engine.slam.simulate import World, simulate
 
 SMALL = World(robots=2, poses=120, side=300.0, landmarks=40, classes=8, misclassified=0.0)
@@ -29,9 +29,9 @@ def increments(
     seen = log.seen
     mapper = EdgeMapper(
         robot or log.name, mission.classes, mission.dynamic, run=run, start=log.start,
-        start_sigma=log.start_sigma, noise=log.odometry.noise, sigma_range=seen.sigma_range,
-        sigma_bearing=seen.sigma_bearing,
+        start_sigma=log.start_sigma, noise=log.odometry.noise,
     )  # fmt: skip
+    sigmas: list[list[float]] = seen.sigmas.tolist()
     found, row = [], 0
     for n, (time, pose) in enumerate(
         zip(log.odometry.time.tolist(), log.odometry.pose.tolist(), strict=True)
@@ -41,6 +41,7 @@ def increments(
             mapper.sighting(
                 seen.time[row].item(), seen.range[row].item(), seen.bearing[row].item(),
                 int(seen.feature[row]), seen.confidence[row].item(),
+                sigma=(sigmas[row][0], sigmas[row][1]),
             )  # fmt: skip
             row += 1
         if n % 20 == 19:
@@ -152,3 +153,27 @@ def test_missing_increments_are_counted_up_to_a_limit(mission: Mission) -> None:
     first = increments(mission, mission.robots[0])[0]
     late = collective(mission, [first, *(replace(first, sequence=n * 1000) for n in range(1, 9))])
     assert late.notes == ["robot 1: increments 1, 2, 3, 4, 5 are missing; later ones wait"]
+
+
+def test_a_sighting_says_how_good_it_is_or_is_as_good_as_all() -> None:
+    mapper = EdgeMapper("r", ("Tree",), np.zeros(1, np.bool_), sigma_range=0.7, sigma_bearing=0.03)
+    mapper.odometry(0, (0, 0, 0))
+    mapper.sighting(0, 5, 0, 0, 0.9)
+    mapper.sighting(0, 5, 1, 0, 0.9, sigma=(0.2, 0.01))
+    made = mapper.increment()
+    assert made is not None
+    assert made.sigma_range.tolist() == [0.7, 0.2]
+    assert made.sigma_bearing.tolist() == [0.03, 0.01]
+
+
+def test_the_covariance_grows_with_what_odometry_loses() -> None:
+    """Steps of 1 m whose way is off by 0.1 m each: 20 of them by 0.2 m2 along the way."""
+    noise = OdometryNoise(0, 0, 0, 0, (0.1, 0.05, 0.001))
+    mapper = EdgeMapper("r", ("Tree",), np.zeros(1, np.bool_), noise=noise)
+    assert mapper.covariance is None
+    found: list[float] = []
+    for n in range(60):
+        mapper.odometry(float(n), (float(n), 0, 0))
+        if mapper.covariance is not None:
+            found.append(float(mapper.covariance[0, 0]))
+    assert found[-1] - found[-21] == pytest.approx(0.2, rel=0.05)

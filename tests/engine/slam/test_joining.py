@@ -7,13 +7,13 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from symboslam.engine.slam import joining
 from symboslam.engine.slam.edge_landmarks import Known
 from symboslam.engine.slam.edge_map import EdgeMap
 from symboslam.engine.slam.estimate import estimate
 from symboslam.engine.slam.log import Mission, Pose
 from symboslam.engine.slam.odometry import pose_at
 from symboslam.engine.slam.run import Run
+from symboslam.engine.slam.settings import SlamSettings
 from symboslam.engine.slam.simulate import World, simulate
 from symboslam.engine.slam.slam_map import SlamMap
 
@@ -64,16 +64,13 @@ def confused(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return again
 
 
-def test_a_robot_that_is_wrong_is_mapped_again(
-    confused: list[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_robot_that_is_wrong_is_mapped_again(confused: list[str]) -> None:
     mission = simulate(ROOM, 3)
     found = estimate(mission)
     assert confused == ["robot 2"]
     assert off(mission, found, "robot 2") < 1.0
     assert found.doubts == ()
-    monkeypatch.setattr(joining, "REPAIRS", 0)
-    left = estimate(mission)
+    left = estimate(mission, SlamSettings(repairs=0))
     assert off(mission, left, "robot 2") > 10.0
     assert any(doubt.startswith("robot 2") for doubt in left.doubts)
 

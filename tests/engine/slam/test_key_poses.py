@@ -18,7 +18,14 @@ BAD = st.sampled_from([math.nan, math.inf, -math.inf, -1.0, 0.0])
 
 
 def keys(interval: float = 1.0) -> KeyPoses:
-    return KeyPoses(PoseGraph("r"), OdometryNoise(), 0.5, 0.02, interval)
+    return KeyPoses(PoseGraph("r"), OdometryNoise(), interval)
+
+
+def see(
+    found: KeyPoses, time: float, reach: float, bearing: float, confidence: float = 0.9
+) -> list[Sighting]:
+    """Something of class 0 without a key, 0.5 m and 0.02 rad wrong."""
+    return found.sighting(time, reach, bearing, 0, confidence, "", 0.5, 0.02)
 
 
 def driven(found: KeyPoses, poses: int, step: float = 1.0) -> KeyPoses:
@@ -123,7 +130,7 @@ def test_key_poses_lie_on_a_grid_that_all_robots_share() -> None:
 
 def test_a_sighting_waits_until_odometry_says_where_it_was_made() -> None:
     found = driven(keys(), 3)
-    assert found.sighting(2.5, 4.0, 0.0, 0, 0.9) == []
+    assert see(found, 2.5, 4.0, 0.0) == []
     (seen,) = found.odometry(3.0, 3.0, 0.0, 0.0)
     assert seen.pose == 2
     assert (seen.range, seen.bearing) == pytest.approx((4.5, 0))
@@ -132,7 +139,7 @@ def test_a_sighting_waits_until_odometry_says_where_it_was_made() -> None:
 def test_a_bearing_alone_gets_a_key_pose_of_its_own() -> None:
     found = keys(10)
     found.odometry(0, 0, 0, 0)
-    found.sighting(1, math.nan, 0.3, 0, 0.9)
+    see(found, 1, math.nan, 0.3)
     (seen,) = found.odometry(2, 0, 0, 1.0)
     assert math.isnan(seen.range)
     assert (seen.pose, seen.bearing) == (1, 0.3)
@@ -143,7 +150,7 @@ def test_a_bearing_alone_gets_a_key_pose_of_its_own() -> None:
 def test_what_is_seen_at_a_key_pose_is_seen_from_it() -> None:
     found = keys(0.5)
     found.odometry(1.2e9, 0, 0, 0)
-    found.sighting(1.2e9 + 1, math.nan, 0.3, 0, 0.9)
+    see(found, 1.2e9 + 1, math.nan, 0.3)
     (seen,) = found.odometry(1.2e9 + 1, 5, 0, 0)
     assert (seen.pose, len(found.graph)) == (1, 2)
 
@@ -154,15 +161,15 @@ def told(found: KeyPoses) -> dict[str, int]:
 
 def test_before_the_first_odometry() -> None:
     found = keys()
-    found.sighting(-5, 1, 0, 0, 0.9)
+    see(found, -5, 1, 0)
     driven(found, 2)
     assert told(found) == {"measurements before the first odometry, left out": 1}
 
 
 def test_long_after_the_last_odometry() -> None:
     found = driven(keys(), 2)
-    found.sighting(1.5, 1, 0, 0, 0.9)
-    found.sighting(99, 1, 0, 0, 0.9)
+    see(found, 1.5, 1, 0)
+    see(found, 99, 1, 0)
     assert [s.time for s in found.finish()] == [1.5]
     assert told(found) == {"measurements without odometry at their time, left out": 1}
 
@@ -187,36 +194,81 @@ def test_odometry_that_is_not_finite(row: tuple[float, float, float, float]) -> 
 @pytest.mark.parametrize(
     ("row", "problem"),
     [
-        ((math.nan, 1, 1, 0, 1), "without time, or without range and bearing"),
-        ((0, math.nan, math.nan, 0, 1), "without time, or without range and bearing"),
-        ((0, math.inf, 0, 0, 1), "whose range or bearing cannot be"),
-        ((0, 1, -math.inf, 0, 1), "whose range or bearing cannot be"),
-        ((0, 0, 0, 0, 1), "whose range or bearing cannot be"),
-        ((0, -3, 0, 0, 1), "whose range or bearing cannot be"),
-        ((0, 1, 0, 0, 0), "with a confidence outside (0, 1]"),
-        ((0, 1, 0, 0, 1.5), "with a confidence outside (0, 1]"),
-        ((0, 1, 0, 0, math.nan), "with a confidence outside (0, 1]"),
+        ((math.nan, 1, 1, 1), "without time, or without range and bearing"),
+        ((0, math.nan, math.nan, 1), "without time, or without range and bearing"),
+        ((0, math.inf, 0, 1), "whose range or bearing cannot be"),
+        ((0, 1, -math.inf, 1), "whose range or bearing cannot be"),
+        ((0, 0, 0, 1), "whose range or bearing cannot be"),
+        ((0, -3, 0, 1), "whose range or bearing cannot be"),
+        ((0, 1, 0, 0), "with a confidence outside (0, 1]"),
+        ((0, 1, 0, 1.5), "with a confidence outside (0, 1]"),
+        ((0, 1, 0, math.nan), "with a confidence outside (0, 1]"),
     ],
 )
 def test_bad_sightings_are_left_out_and_counted(
-    row: tuple[float, float, float, int, float], problem: str
+    row: tuple[float, float, float, float], problem: str
 ) -> None:
     found = driven(keys(), 2)
-    assert found.sighting(*row) == []
+    assert see(found, *row) == []
     assert told(found) == {f"measurements {problem}, left out": 1}
 
 
 def test_rows_are_numbered_as_they_come_even_those_left_out() -> None:
     found = driven(keys(), 2)
-    found.sighting(0, 1, 0, 0, 0)
-    seen: list[Sighting] = found.sighting(1, 1, 0, 0, 1)
+    see(found, 0, 1, 0, 0)
+    seen = see(found, 1, 1, 0, 1)
     assert [s.row for s in seen] == [1]
 
 
 def test_the_same_again_is_left_out_and_told() -> None:
     found = driven(keys(), 4)
     for bearing in (0.1, 0.1, 0.2, math.nan, math.nan):
-        found.sighting(2, 5, bearing, 0, 0.9)
+        see(found, 2, 5, bearing)
     found.finish()
     assert len(found.graph.sightings) == 3
     assert told(found) == {"measurements that repeat another, left out": 2}
+
+
+def test_each_sighting_keeps_its_own_deviations() -> None:
+    """Also if it waits for odometry, and is carried back to the key pose before it."""
+    found = driven(keys(), 3)
+    found.sighting(1, 5, 0.1, 0, 0.9, "", 0.3, 0.01)
+    found.sighting(2.5, 4, 0, 0, 0.9, "", 0.7, 0.04)
+    found.odometry(3, 3, 0, 0)
+    assert [(s.sigma_range, s.sigma_bearing) for s in found.graph.sightings] == [
+        (0.3, 0.01), (0.7, 0.04),
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("sigma", [0.0, -0.5, math.nan, math.inf])
+def test_a_deviation_that_cannot_be_is_left_out_and_counted(sigma: float) -> None:
+    found = driven(keys(), 2)
+    assert found.sighting(1, 5, 0.1, 0, 0.9, "", sigma, 0.02) == []
+    assert found.sighting(1, 5, 0.1, 0, 0.9, "", 0.5, sigma) == []
+    assert told(found) == {"measurements with a deviation not above 0, left out": 2}
+
+
+def test_the_deviation_of_what_was_not_measured_does_not_matter() -> None:
+    found = driven(keys(), 2)
+    (bearing,) = found.sighting(1, math.nan, 0.1, 0, 0.9, "", math.nan, 0.02)
+    (reach,) = found.sighting(1, 5, math.nan, 0, 0.9, "", 0.4, 0.0)
+    assert (bearing.sigma_range, bearing.sigma_bearing) == (0.5, 0.02)
+    assert (reach.sigma_range, reach.sigma_bearing) == (0.4, 0.02)
+
+
+def test_a_log_replays_the_deviations_of_its_rows() -> None:
+    """The rows are not in the order of time: each deviation goes with its row."""
+    seen = Measurements(
+        np.array([2.0, 1.0]), np.array([5.0, 6.0]), np.zeros(2), np.zeros(2, np.int64),
+        np.ones(2), np.full(2, "", object), np.array([0.2, 0.1]), 0.03,
+    )  # fmt: skip
+    time = np.arange(4.0)
+    found = keys()
+    list(
+        replay(
+            RobotLog("r", Odometry(time, np.column_stack([time, 0 * time, 0 * time])), seen), found
+        )
+    )
+    assert {s.row: (s.sigma_range, s.sigma_bearing) for s in found.graph.sightings} == {
+        0: (0.2, 0.03), 1: (0.1, 0.03),
+    }  # fmt: skip

@@ -40,10 +40,12 @@ class EdgeMapper:
 
     def sighting(
         self, time: float, range: float, bearing: float, feature: int, confidence: float,
-        key: str = "",
+        key: str = "", sigma: tuple[float, float] | None = None,
     ) -> None:  # fmt: skip
         name = "" if feature < 0 else self.classes[feature]
-        self._seen.append((len(self._poses) - 1, range, bearing, name, confidence, key))
+        self._seen.append(
+            (len(self._poses) - 1, range, bearing, name, confidence, key, *(sigma or self.sigmas))
+        )
 
     def fix(self, time: float, x: float, y: float, sigma: float) -> None:
         self._fixes.append((len(self._poses) - 1, (x, y, sigma)))
@@ -69,7 +71,8 @@ class EdgeMapper:
             np.arange(self._told, self._told + n), np.zeros(n),
             np.array([s[0] for s in seen], np.int64),
             np.array([s[1] for s in seen], float), np.array([s[2] for s in seen], float),
-            np.full(n, self.sigmas[0]), np.full(n, self.sigmas[1]), objects([s[3] for s in seen]),
+            np.array([s[6] for s in seen], float), np.array([s[7] for s in seen], float),
+            objects([s[3] for s in seen]),
             np.array([s[4] for s in seen], float), objects([s[5] for s in seen]), np.full(n, -1),
             np.array([f[0] for f in self._fixes], np.int64),
             np.array([f[1] for f in self._fixes], float).reshape(-1, 3), last,

@@ -59,6 +59,31 @@ def test_a_house_ahead_is_its_front_and_half_its_depth_away() -> None:
     assert lidar.asked == pytest.approx((bearing_of(172, SPEC), bearing_of(148, SPEC)))
 
 
+def test_deviations_grow_with_the_thing_and_its_angle() -> None:
+    """A House is 10 m x 12 m: a fifth of 11 m is 2.2 m, a tenth of it at 36.38 m 0.0302 rad."""
+    house = Detection((140, 88, 180, 128), "House", 0.9)
+    found = measure(house, FakeLidar(30.0), (0, 0, 0), SPEC)  # type: ignore[arg-type]
+    assert found is not None
+    assert found.range == pytest.approx(36.38)
+    assert found.sigma == pytest.approx(
+        (math.hypot(0.7, 2.2), math.hypot(0.01, 0.030236)), abs=1e-6
+    )
+    assert found.sigma == pytest.approx((2.3087, 0.031847), abs=1e-4)
+
+
+def test_what_has_no_range_has_no_deviation() -> None:
+    house = Detection((140, 88, 180, 128), "House", 0.9)
+    found = measure(house, FakeLidar(), (0, 0, 0), SPEC)  # type: ignore[arg-type]
+    assert found is not None
+    assert all(math.isnan(value) for value in (found.range, *found.sigma))
+
+
+def test_one_turn_of_the_mount_sees_all_around() -> None:
+    assert SPEC.field == pytest.approx(math.tau)
+    assert CameraSpec(pan=(0.0,)).field == pytest.approx(math.pi / 2)
+    assert CameraSpec(pan=(0.0, 0.5, -0.4)).field == pytest.approx(math.pi / 2 + 1)
+
+
 def test_without_a_ray_the_foot_gives_the_range_of_what_is_near() -> None:
     near, far = foot_of(Detection((150, 110, 170, 144), "Bench", 0.9), SPEC)
     assert (near, far) == pytest.approx((240 / 25, 240 / 23))

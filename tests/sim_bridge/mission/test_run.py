@@ -95,6 +95,9 @@ def test_a_whole_mission(tmp_path: Path) -> None:
     assert all(len(log.odometry) == 181 and log.start is not None for log in mission.robots)
     assert sum(len(log.seen) for log in mission.robots) > 200
     assert notes == []
+    for log in mission.robots:
+        assert len(set(log.seen.sigmas[:, 1].tolist())) > 3
+        assert log.seen.sigmas.min() > 0
     identity = (record / "identity.csv").read_text().splitlines()
     detections = (record / "detections.csv").read_text().splitlines()
     assert len(identity) == len(detections)

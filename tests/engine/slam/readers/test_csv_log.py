@@ -21,6 +21,7 @@ DETECTIONS = (
     "1.5,,0.2,Car,,\n"
     "1,3,,Wombat,0.5,No. 7\n"
 )
+SIGMAS = "time,range,bearing,sigma_range,sigma_bearing\n"
 
 
 def read(
@@ -66,6 +67,24 @@ def test_a_folder_by_hand(write: Write) -> None:
         "detections.csv: time goes back at 1 row, by up to 0.5 s; rows were sorted by time",
         "fixes.csv: time goes back at 1 row, by up to 1 s; rows were sorted by time",
     ]
+
+
+def test_deviations_of_each_detection(write: Write) -> None:
+    """Sorted with their rows; an empty cell is the usual; what was not measured needs none."""
+    mission, _ = read(
+        write,
+        detections=f"{SIGMAS}1,5,0.1,0.3,0.01\n0,6,0.2,,0.04\n2,,0.3,nan,0.05\n2,7,,0.9,0\n",
+    )
+    seen = mission.robots[0].seen
+    assert seen.time.tolist() == [0, 1, 2, 2]
+    assert seen.sigmas.tolist() == [[0.5, 0.04], [0.3, 0.01], [0.5, 0.05], [0.9, 0.02]]
+
+
+def test_a_deviation_of_one_column_alone(write: Write) -> None:
+    mission, _ = read(write, detections="time,range,bearing,range_std\n0,5,0.1,0.3\n1,5,0.1,0.4\n")
+    seen = mission.robots[0].seen
+    assert seen.sigmas.tolist() == [[0.3, 0.02], [0.4, 0.02]]
+    assert seen.sigma_bearing == 0.02
 
 
 def test_classes_of_the_ontology(write: Write, knowledge: Knowledge) -> None:
@@ -155,6 +174,10 @@ def test_times_of_the_calendar(write: Write) -> None:
         ({"odometry": 'time,x,y,heading\n0,"0,0,0\n'}, "line 2: this is not valid CSV"),
         ({"detections": "time,class\n0,Tree\n"}, "a column range or bearing is needed"),
         ({"detections": "time,range,confidence\n0,1,1.5\n"}, "line 2: confidence is '1.5', not in"),
+        ({"detections": f"{SIGMAS}0,1,0,0,0.1\n"}, "line 2: sigma_range is '0', not above 0"),
+        ({"detections": f"{SIGMAS}0,1,0,1,-0.1\n"}, "line 2: sigma_bearing is '-0.1', not above 0"),
+        ({"detections": f"{SIGMAS}0,1,0,1,1\n1,1,0,nan,1\n"}, "line 3: sigma_range is 'nan', not"),
+        ({"detections": f"{SIGMAS}0,1,0,inf,1\n"}, "line 2: sigma_range is 'inf', not above 0"),
         ({"detections": "time,range,bearing,bearing_deg\n0,1,1,1\n"}, "both bearing and"),
         ({"fixes": "time,lon,lat\n0,1,1\n"}, "fixes.csv: header: columns x and y, in metres"),
         ({"starts": "robot,x,y,heading\nRobot 1,1,,0\n"}, "a start needs x, y and heading"),

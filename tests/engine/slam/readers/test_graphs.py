@@ -52,8 +52,7 @@ def test_g2o_by_hand(write: Write) -> None:
     assert np.isnan(seen.range[0])
     assert seen.range[1] == 5
     assert seen.bearing == pytest.approx([0.5, np.arctan2(4, 3)])
-    assert seen.sigma_range == pytest.approx(0.2)
-    assert seen.sigma_bearing == pytest.approx((0.01 + 0.04) / 2)
+    assert seen.sigmas == pytest.approx(np.array([[0.2, 0.01], [0.2, 0.04]]))
     assert log.closures is not None
     assert log.closures.time.tolist() == [[2, 0]]
     assert log.closures.step.tolist() == [[-1, -1, 0]]
@@ -189,8 +188,7 @@ def test_gtsam_text_by_hand(write: Write) -> None:
     assert log.seen.key.tolist() == ["0", "1"]
     assert log.seen.range.tolist() == [2, 3]
     assert log.seen.bearing == pytest.approx([np.pi / 2, 0.5])
-    assert log.seen.sigma_range == pytest.approx((0.4 + 0.3) / 2)
-    assert log.seen.sigma_bearing == pytest.approx((0.1 + 0.01) / 2)
+    assert log.seen.sigmas == pytest.approx(np.array([[0.4, 0.1], [0.3, 0.01]]))
 
 
 def test_symbols_of_gtsam(write: Write) -> None:

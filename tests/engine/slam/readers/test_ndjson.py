@@ -68,3 +68,15 @@ def test_what_cannot_be_read_is_refused(tmp_path: Path) -> None:
 def test_files_of_several_robots_tell_their_format(tmp_path: Path) -> None:
     assert format_of([tmp_path / "a.ndjson", tmp_path / "b.jsonl.gz"]) == "ndjson"
     assert format_of([tmp_path / "odometry.csv", tmp_path / "b.ndjson"]) == "csv"
+
+
+def test_each_sighting_keeps_its_own_deviations(tmp_path: Path) -> None:
+    records = [
+        {"time": 1, "odometry": [0, 0, 0]},
+        {"time": 2, "class": "Tree", "range": 5, "bearing": 0.5, "sigma": [0.3, 0.01]},
+        {"time": 1, "class": "Tree", "range": 6, "bearing": 0.5},
+    ]
+    mission, _ = read_mission(write(tmp_path / "r.ndjson", records))
+    assert mission.robots[0].seen.sigmas.tolist() == [[0.5, 0.02], [0.3, 0.01]]
+    mission, _ = read_mission(write(tmp_path / "s.ndjson", [records[0], records[2]]))
+    assert mission.robots[0].seen.sigma_range == 0.5

@@ -22,6 +22,8 @@ def test_records_are_read() -> None:
     assert parse('{"time": 1, "fix": [1, 2, 3]}') == FixRecord(1.0, 1.0, 2.0, 3.0)
     seen = parse('{"time": 1, "class": "House", "range": 5, "bearing": 0.1, "key": "7b"}')
     assert seen == SightingRecord(1.0, 5.0, 0.1, "House", 1.0, "7b")
+    sure = parse('{"time": 1, "class": "House", "range": 5, "bearing": 0, "sigma": [0.3, 0.01]}')
+    assert sure == SightingRecord(1.0, 5.0, 0.0, "House", sigma=(0.3, 0.01))
     far = parse('{"time": 1, "class": "House", "range": null, "bearing": 0, "confidence": 0.5}')
     assert isinstance(far, SightingRecord)
     assert math.isnan(far.range)
@@ -40,6 +42,11 @@ def test_records_are_read() -> None:
         ('{"time": 1, "class": 3, "range": 1}', "class is no text"),
         ('{"time": 1, "class": "House", "range": -1}', "below 0"),
         ('{"time": 1, "class": "House", "range": 1, "confidence": 0}', "confidence"),
+        ('{"time": 1, "class": "House", "range": 1, "sigma": 0.5}', "sigma is not two finite"),
+        ('{"time": 1, "class": "House", "range": 1, "sigma": [0.5]}', "sigma is not two finite"),
+        ('{"time": 1, "class": "House", "range": 1, "sigma": [NaN, 1]}', "sigma is not two finite"),
+        ('{"time": 1, "class": "House", "range": 1, "sigma": [0.5, 0]}', "sigma is not above 0"),
+        ('{"time": 1, "class": "House", "range": 1, "sigma": [-1, 1]}', "sigma is not above 0"),
         ('{"time": 1, "class": "House", "range": 1, "colour": 0}', "colour"),
     ],
 )  # fmt: skip
@@ -76,3 +83,13 @@ def test_a_log_is_what_the_robot_would_have_written() -> None:
     ]  # fmt: skip
     assert found[4] == SightingRecord(1.0, 2.0, 0.2, "Robot", 1.0, "7b")
     assert found[3] == FixRecord(1.0, 5.0, 6.0, 2.0)
+
+
+def test_only_what_differs_from_row_to_row_is_said_of_each() -> None:
+    objects = np.array(["", ""], object)
+    columns = np.array([0.0, 1.0]), np.full(2, 5.0), np.zeros(2), np.zeros(2, np.int64), np.ones(2)
+    driven = Odometry(np.array([0.0]), np.zeros((1, 3)))
+    for sigma, said in ((0.3, [None, None]), (np.array([0.3, 0.4]), [(0.3, 0.02), (0.4, 0.02)])):
+        log = RobotLog("r1", driven, Measurements(*columns, objects, sigma, 0.02))
+        found = [r.sigma for r in of_log(log, ("House",)) if isinstance(r, SightingRecord)]
+        assert found == said

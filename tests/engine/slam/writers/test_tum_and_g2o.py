@@ -128,8 +128,8 @@ def test_any_graph_comes_back(steps: list[tuple[float, float, float]], seed: int
         feature=np.zeros(m, np.int64),
         confidence=np.ones(m),
         key=np.array([str(k) for k in random.integers(0, 3, m)], object),
-        sigma_range=0.3,
-        sigma_bearing=0.02,
+        sigma_range=random.uniform(0.1, 2, m),
+        sigma_bearing=random.uniform(0.01, 0.1, m),
     )
     noise = OdometryNoise(0, 0, 0, 0, (0.3, 0.2, 0.1))
     pose = chain((0, 0, 0), np.array(steps))
@@ -148,8 +148,7 @@ def test_any_graph_comes_back(steps: list[tuple[float, float, float]], seed: int
     assert found.odometry.noise.floor == pytest.approx((0.3, 0.2, 0.1))
     assert found.seen.range == pytest.approx(seen.range)
     assert found.seen.bearing == pytest.approx(seen.bearing)
-    assert found.seen.sigma_range == pytest.approx(0.3)
-    assert found.seen.sigma_bearing == pytest.approx(0.02)
+    assert found.seen.sigmas == pytest.approx(seen.sigmas)
     assert again is not None
     true = drawn.trajectories["R"].pose
     assert again.trajectories["Robot 1"].pose == pytest.approx(true)
