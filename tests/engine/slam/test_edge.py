@@ -170,10 +170,11 @@ def test_the_covariance_grows_with_what_odometry_loses() -> None:
     """Steps of 1 m whose way is off by 0.1 m each: 20 of them by 0.2 m2 along the way."""
     noise = OdometryNoise(0, 0, 0, 0, (0.1, 0.05, 0.001))
     mapper = EdgeMapper("r", ("Tree",), np.zeros(1, np.bool_), noise=noise)
-    assert mapper.covariance is None
+    with pytest.raises(RuntimeError, match="nothing was solved"):
+        mapper.covariance  # noqa: B018
     found: list[float] = []
     for n in range(60):
         mapper.odometry(float(n), (float(n), 0, 0))
-        if mapper.covariance is not None:
+        if mapper.solved:
             found.append(float(mapper.covariance[0, 0]))
     assert found[-1] - found[-21] == pytest.approx(0.2, rel=0.05)

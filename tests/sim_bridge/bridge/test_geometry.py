@@ -53,22 +53,55 @@ def test_a_house_ahead_is_its_front_and_half_its_depth_away() -> None:
     found = measure(house, lidar, (0, 0, 0), SPEC)  # type: ignore[arg-type]
     assert found is not None
     assert found.bearing == 0
-    assert found.range == pytest.approx(30.1 + half_depth("House"), abs=0.11)
-    assert half_depth("House") == pytest.approx(0.29 * 22)
-    assert half_depth("Tree") == pytest.approx(2.75)
-    assert lidar.asked == pytest.approx((bearing_of(172, SPEC), bearing_of(148, SPEC)))
+    # 7.55 m wide: narrower than the narrowest house, whose side of 10 m is 6 m from its middle
+    depth, _ = half_depth("House", 7.55)
+    assert 5.0 < depth <= 6.0
+    assert found.range == pytest.approx(30.2 + depth)
+    assert lidar.asked == pytest.approx((bearing_of(168, SPEC), bearing_of(152, SPEC)))
+
+
+def test_how_wide_a_train_looks_tells_how_it_is_turned() -> None:
+    """20 m x 2.9 m: from its end the middle is 10 m away, from its side 1.45 m."""
+    end, side = half_depth("Train", 2.9), half_depth("Train", 20.0)
+    assert end[0] == pytest.approx(10.0, abs=0.1)
+    assert side[0] == pytest.approx(1.5, abs=0.1)
+    between, spread = half_depth("Train", 9.0)
+    assert side[0] < between < end[0]
+    assert spread > max(end[1], side[1])
+
+
+def test_round_things_look_the_same_from_all_sides() -> None:
+    """A Tree is 5.5 m across: the nearest quarter of its rays is its front."""
+    assert half_depth("Tree", 3.0) == half_depth("Tree", 8.0) == (2.75, 0.0)
+    tree = Detection((150, 80, 170, 128), "Tree", 0.9)  # 9 m at 30 m: 48 points
+    lidar = FakeLidar(28.0, 28.1, 30.0, 30.1, 30.2)
+    found = measure(tree, lidar, (0, 0, 0), SPEC)  # type: ignore[arg-type]
+    assert found is not None
+    assert found.range == pytest.approx(28.1 + 2.75)
+
+
+def test_what_stands_before_a_thing_takes_its_rays() -> None:
+    """A bench stands lower in the picture, in the columns of the house's rays."""
+    house = Detection((140, 88, 180, 128), "House", 0.9)
+    bench = Detection((150, 120, 170, 132), "Bench", 0.9)
+    aside = Detection((200, 120, 220, 132), "Bench", 0.9)
+    free = measure(house, FakeLidar(24.0), (0, 0, 0), SPEC, [house, aside])  # type: ignore[arg-type]
+    taken = measure(house, FakeLidar(24.0), (0, 0, 0), SPEC, [house, bench])  # type: ignore[arg-type]
+    assert free is not None and taken is not None
+    assert math.isfinite(free.range)
+    assert math.isnan(taken.range)
 
 
 def test_deviations_grow_with_the_thing_and_its_angle() -> None:
-    """A House is 10 m x 12 m: a fifth of 11 m is 2.2 m, a tenth of it at 36.38 m 0.0302 rad."""
+    """A House is 10 m x 12 m: a tenth of 11 m is 1.1 m, and 1.1 / 35.7 of a radian."""
     house = Detection((140, 88, 180, 128), "House", 0.9)
     found = measure(house, FakeLidar(30.0), (0, 0, 0), SPEC)  # type: ignore[arg-type]
     assert found is not None
-    assert found.range == pytest.approx(36.38)
+    depth, spread = half_depth("House", 7.5)
+    assert found.range == pytest.approx(30 + depth)
     assert found.sigma == pytest.approx(
-        (math.hypot(0.7, 2.2), math.hypot(0.01, 0.030236)), abs=1e-6
+        (math.hypot(0.7, 1.1, spread), math.hypot(0.01, 1.1 / (30 + depth)))
     )
-    assert found.sigma == pytest.approx((2.3087, 0.031847), abs=1e-4)
 
 
 def test_what_has_no_range_has_no_deviation() -> None:
@@ -90,7 +123,7 @@ def test_without_a_ray_the_foot_gives_the_range_of_what_is_near() -> None:
     bench = Detection((150, 130, 170, 144), "Bench", 0.9)  # 0.9 m at 10 m: 14 points
     found = measure(bench, FakeLidar(math.inf), (0, 0, 0), SPEC)  # type: ignore[arg-type]
     assert found is not None
-    assert found.range == pytest.approx(10.0 + half_depth("Bench"), abs=0.05)
+    assert found.range == pytest.approx(10.0 + half_depth("Bench", 1.25)[0], abs=0.05)
     far_away = Detection((150, 116, 170, 124), "Bus", 0.9)  # 60 m
     found = measure(far_away, FakeLidar(math.inf), (0, 0, 0), SPEC)  # type: ignore[arg-type]
     assert found is not None
