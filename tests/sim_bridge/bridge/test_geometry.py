@@ -87,7 +87,8 @@ def test_what_stands_before_a_thing_takes_its_rays() -> None:
     aside = Detection((200, 120, 220, 132), "Bench", 0.9)
     free = measure(house, FakeLidar(24.0), (0, 0, 0), SPEC, [house, aside])  # type: ignore[arg-type]
     taken = measure(house, FakeLidar(24.0), (0, 0, 0), SPEC, [house, bench])  # type: ignore[arg-type]
-    assert free is not None and taken is not None
+    assert free is not None
+    assert taken is not None
     assert math.isfinite(free.range)
     assert math.isnan(taken.range)
 
