@@ -89,7 +89,10 @@ def _columns(
     if name is not None and name not in FORMATS:
         raise InputError(f"there is no format {name!r}: choose one of {', '.join(FORMATS)}")
     if isinstance(source, Mapping):
-        return geojson.from_object(source, "GeoJSON", knowledge)
+        title = source.get("name")
+        return geojson.from_object(
+            source, title if isinstance(title, str) and title else "GeoJSON", knowledge
+        )
     opened = open_source(source)
     chosen = name or _format_of(opened)
     columns = FORMATS[chosen].read(opened, knowledge, progress)

@@ -141,6 +141,7 @@ def landmarks_of(
         path = Path(temporary) / "landmarks.geojson"
         write_slam_map(path, slam_map, mission)
         document: dict[str, Any] = json.loads(path.read_text())
+    document["name"] = world.name
     document["bbox"] = [e.min_x, e.min_y, e.max_x, e.max_y]
     lines = [
         shapely.LineString(path.pose[[*range(len(path.pose)), -1], :2]).simplify(1.0)

@@ -337,6 +337,15 @@ def test_a_bad_feature_is_named(read: Read, feature: Any, message: str) -> None:
     assert caught.value.source == "GeoJSON"
 
 
+def test_a_collection_with_a_name_is_called_by_it(read: Read) -> None:
+    """The member ``name``, as GDAL writes it; what is no text is passed over."""
+    bad = metres(point(3, 4, **{"class": "Tree", "time": ["x"]}))
+    for name, told in (("Demo", "Demo"), ("", "GeoJSON"), (["x"], "GeoJSON")):
+        with pytest.raises(LandmarkError) as caught:
+            read({**bad, "name": name})
+        assert caught.value.source == told
+
+
 @pytest.mark.parametrize("others", [[], [point(1, building="house"), point(2)]])
 def test_nothing_said_is_refused_unless_all_others_have_flat_tags(
     read: Read, others: list[Any]
