@@ -136,7 +136,13 @@ def test_the_same_seed_gives_the_same_run(tmp_path: Path) -> None:
 def test_interrupted_records_can_be_read(tmp_path: Path) -> None:
     record = tmp_path / "record"
     command = [sys.executable, "-m", "symboslam", "sim", "run", "demo", "--record", str(record)]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, env=os.environ)
+    # Where the tests run in the background, ctrl-C is ignored, and would be here.
+    process = subprocess.Popen(
+        command,
+        stdout=subprocess.PIPE,
+        env=os.environ,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
     coverage = record / "coverage.csv"
     until = time.monotonic() + 60
     while not coverage.exists() or coverage.read_text().count("\n") < 10:
