@@ -50,6 +50,27 @@ def test_covariances_grow_with_the_way(robot: Any) -> None:
     assert np.linalg.eigvalsh(graph.pose_covariance(0, 4)).min() > 0
 
 
+def test_what_hardly_holds_may_be_anywhere(robot: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Marginals that cannot be had of one landmark: QR for the others, a loose one for it."""
+    marks = {0: [(0, 2, 0)], 1: [(4, 6, 0)]}
+    member: Member = robot("r", [(n, 0, 0) for n in range(5)], marks)
+    graph = JointGraph([member], SlamSettings(), 5.0)
+    graph.solve(2.0)
+    graph.marginals()
+    sound = graph.covariance[0]
+    marginal = JointGraph._marginal
+
+    def fails(self: JointGraph, label: int) -> Any:
+        if label == 1:
+            raise RuntimeError("Indeterminate linear system")
+        return marginal(self, label)
+
+    monkeypatch.setattr(JointGraph, "_marginal", fails)
+    graph.marginals()
+    assert graph.covariance[0] == pytest.approx(sound, rel=1e-6)
+    assert graph.covariance[1] == pytest.approx(np.eye(2) * 50.0**2)
+
+
 def test_a_meeting_puts_a_robot_right(robot: Any) -> None:
     one: Member = robot("one", [(0, 0, 0)], {0: [(0, 5, 0)]})
     other: Member = robot("other", [(3, 4, 0)], {})
