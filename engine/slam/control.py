@@ -12,7 +12,6 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from symboslam.engine.slam.beliefs import ClassBeliefs
 from symboslam.engine.slam.increment import AHEAD, EdgeIncrement
 from symboslam.engine.slam.interleaving import OFTEN, jumps
 from symboslam.engine.slam.joining import Joining, Progress, silent
@@ -20,7 +19,6 @@ from symboslam.engine.slam.key_poses import KeyPoses, replay
 from symboslam.engine.slam.log import Floats, RobotLog
 from symboslam.engine.slam.outcome import outcome
 from symboslam.engine.slam.run import Run
-from symboslam.engine.slam.scale import Scale
 from symboslam.engine.slam.settings import SlamSettings
 from symboslam.engine.slam.slam_map import SlamMap
 from symboslam.engine.slam.starts import doubtful_starts
@@ -130,12 +128,9 @@ class CollectiveMap:
 
     def _of_starts(self, joining: Joining) -> list[str]:
         """Which starts, as given, do not fit the map."""
-        scale = Scale()
-        for edge in joining.edges:
-            scale.include(edge.scale)
         excess = {n: sum(doubt.excess for doubt in each) for n, each in joining.doubts.items()}
         doubted = [joining.placed.index(n) for n in sorted(excess, key=lambda n: -excess[n])]
-        return doubtful_starts(joining.graph, doubted, ClassBeliefs(self._similarity), scale)
+        return doubtful_starts(joining.graph, doubted, joining.beliefs, joining.scale)
 
     def _run(self, robot: str, run: str) -> Run:
         found = self._runs.get((robot, run))

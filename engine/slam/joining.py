@@ -54,6 +54,8 @@ class Joining:
 
     Attributes:
         edges: as given; those of robots that were mapped again are replaced.
+        beliefs: of classes.
+        scale: of what all robots saw.
         graph: of all robots that are placed, in that order.
         placed: numbers of their runs.
         lost: numbers of runs that could not be placed.
@@ -71,7 +73,7 @@ class Joining:
     ) -> None:
         self.runs, self.edges = list(runs), list(edges)
         self._settings, self._progress = settings, progress
-        self._beliefs, self._scale = ClassBeliefs(similarity), Scale()
+        self.beliefs, self.scale = ClassBeliefs(similarity), Scale()
         self.graph = JointGraph([], settings, 1.0)
         self.placed: list[int] = []
         self.lost = list(range(len(self.runs)))
@@ -81,7 +83,7 @@ class Joining:
         self._named: dict[str, int] = {}
         self._members = [self._member(n, edge) for n, edge in enumerate(self.edges)]
         for edge in self.edges:
-            self._scale.include(edge.scale)
+            self.scale.include(edge.scale)
 
     def join(self) -> None:
         """Put all robots in one frame."""
@@ -94,7 +96,7 @@ class Joining:
         self._add(known)
         while self.lost:
             waiting = [self._members[n] for n in self.lost]
-            found = place_lost(self.graph, waiting, self._beliefs, self._scale)
+            found = place_lost(self.graph, waiting, self.beliefs, self.scale)
             if found is None:
                 break
             number = self.lost[found[0]]
@@ -102,7 +104,7 @@ class Joining:
             self._add([number])
         self._look()
         self._repair()
-        self.vague = vagueness(self.graph, self._scale.reach) + names_of_several(self.graph)
+        self.vague = vagueness(self.graph, self.scale.reach) + names_of_several(self.graph)
 
     def said(self) -> list[str]:
         """Why the map should not be trusted, one sentence each."""
@@ -196,7 +198,7 @@ class Joining:
 
     def _graph(self, members: list[Member]) -> JointGraph:
         """Robots in one frame, not solved yet."""
-        spacing = self._scale.spacing(sum(len(m.graph) for m in members))
+        spacing = self.scale.spacing(sum(len(m.graph) for m in members))
         graph = JointGraph(members, self._settings, spacing)
         for number, member in enumerate(members):
             member.renumber(number)
@@ -209,7 +211,7 @@ class Joining:
 
     def _solved(self, members: list[Member]) -> JointGraph:
         """Robots in one frame, merged round by round until nothing changes or all comes round."""
-        settings, scale = self._settings, self._scale
+        settings, scale = self._settings, self.scale
         graph, far = self._graph(members), True
         passed: set[tuple[int, ...]] = set()
         for turn in range(settings.rounds):
@@ -222,7 +224,7 @@ class Joining:
                 break
             passed.add(_partition(graph))
             graph.marginals()
-            association = Association(graph, self._beliefs, scale, self._numbers)
+            association = Association(graph, self.beliefs, scale, self._numbers)
             changed = association.merge_near()
             merged, far = association.constellations()
             if not merged:

@@ -35,7 +35,8 @@ class Scale:
 
     Attributes:
         reach: metres, the largest range.
-        sigma: metres, of ranges.
+        sigma: metres, standard deviation of ranges: the mean of the sightings', of several robots
+            the largest.
     """
 
     def __init__(self) -> None:
@@ -48,7 +49,7 @@ class Scale:
         """Take over a sighting."""
         self._count += 1
         self.reach = max(self.reach, seen.range)
-        self.sigma = self.sigma or seen.sigma_range
+        self.sigma += (seen.sigma_range - self.sigma) / self._count
         self._bearing = max(self._bearing, min(abs(seen.bearing), math.pi))
 
     def include(self, other: Scale) -> None:

@@ -194,7 +194,7 @@ class EdgeAgent:
             self.mapper.fix(time, *fix, self._gps.spec.sigma)
         estimate = self.mapper.pose or self._start
         self._anchor = (estimate, self.mapper.key_odometry)
-        if self.mapper.solved != self._solved:
+        if self.mapper.solved > self._solved:
             self._solved, covariance = self.mapper.solved, self.mapper.covariance
             self._sigma = math.sqrt(max(covariance[0, 0] + covariance[1, 1], 0.0) / 2)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gzip
+import zlib
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -115,6 +116,6 @@ def _lines(file: Path) -> Iterator[str]:
         with gzip.open(file) if file.suffix == ".gz" else file.open("rb") as opened:
             for line in opened:
                 yield line.decode(errors="replace")
-    except (OSError, EOFError) as error:
+    except (OSError, EOFError, zlib.error) as error:
         said = getattr(error, "strerror", None) or error
         raise InputError(f"{file} cannot be read: {said}") from error

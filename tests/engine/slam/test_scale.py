@@ -42,6 +42,18 @@ def test_two_robots_together_saw_what_both_saw() -> None:
     assert one.reach == 10
 
 
+def test_the_deviation_of_ranges_is_the_mean_and_of_robots_the_largest() -> None:
+    found, other = Scale(), Scale()
+    for sigma in (4.0, 1.0, 1.0):
+        found.see(seen(5, 0, sigma))
+    assert found.sigma == pytest.approx(2)
+    other.see(seen(5, 0, 3.0))
+    found.include(other)
+    assert found.sigma == 3
+    found.include(Scale())
+    assert found.sigma == 3
+
+
 def test_never_seen_together_counts_up_to_enough_times_and_only_if_near() -> None:
     found = scale((9, 0.5))
     assert found.unseen(3, 1.0) == pytest.approx(1.2)

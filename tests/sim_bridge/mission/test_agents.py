@@ -85,3 +85,19 @@ def test_a_robot_that_knows_less_is_sent_back(team: Team, monkeypatch: pytest.Mo
     assert control.assign(SCAN + 0.5, 0.5)["robot 1"] == agent.pose[:2] != goal
     sigma[0] = 1.0
     assert control.assign(SCAN + 1, 0.5)["robot 1"] == goal
+
+
+def test_a_map_that_cannot_be_kept_up_does_not_end_the_mission(team: Team) -> None:
+    (agent,) = team.agents
+    n = 0
+    while not agent.mapper.solved:
+        agent.sense(n / 2, {})
+        agent.drive((150, 60), 0.5)
+        n += 1
+    sigma = agent.sigma
+    edge = agent.mapper._run.edge_map()
+    assert edge is not None
+    edge.trouble = "the graph is underdetermined"
+    assert agent.mapper.solved == 0
+    agent.sense(n / 2, {})
+    assert agent.sigma == sigma

@@ -63,6 +63,11 @@ def test_what_cannot_be_read_is_refused(tmp_path: Path) -> None:
     (tmp_path / "b.ndjson.gz").write_bytes(b"x")
     with pytest.raises(InputError, match=r"b\.ndjson\.gz cannot be read"):
         read_mission(tmp_path / "b.ndjson.gz")
+    whole = gzip.compress(one.read_bytes(), mtime=0)
+    for damaged in (whole[:-20], whole[:12] + b"\xff" * 9 + whole[21:]):
+        (tmp_path / "b.ndjson.gz").write_bytes(damaged)
+        with pytest.raises(InputError, match=r"b\.ndjson\.gz cannot be read"):
+            read_mission(tmp_path / "b.ndjson.gz")
 
 
 def test_files_of_several_robots_tell_their_format(tmp_path: Path) -> None:
