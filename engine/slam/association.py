@@ -121,7 +121,8 @@ class Association:
             covariance = graph.covariance[one] + graph.covariance[other] + floor
             times = len(self.times[one]) + len(self.times[other])
             odds = self.scale.same(xy[i] - xy[j], covariance, alike, times, graph.spacing)
-            if odds > graph.settings.certainty / 2:
+            wide = math.sqrt(float(np.trace(covariance)) / 2) > FAR * graph.spacing
+            if odds > graph.settings.certainty / (1 if wide else 2):
                 found.append((odds, one, other))
         return self._merge([(odds, [(one, other)]) for odds, one, other in found])
 

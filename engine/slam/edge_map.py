@@ -284,6 +284,7 @@ class EdgeMap:
             unseen = self.scale.unseen(
                 sum(len(tracks[a].sightings) for a in found.here),
                 math.sqrt(placing.variance[found.here].min()),
+                float(np.hypot(*(here.xy[found.here] - there.xy[found.there]).T).min()),
             )
             if found.odds + unseen > settings.certainty and found.margin > settings.rival:
                 for a, b in zip(found.here.tolist(), found.there.tolist(), strict=True):

@@ -69,15 +69,19 @@ class Scale:
         view = self.reach**2 * max(self._bearing, 0.1)
         return math.sqrt(view * max(poses, 1) / self._count)
 
-    def unseen(self, times: int, sigma: float) -> float:
+    def unseen(self, times: int, sigma: float, apart: float) -> float:
         """Log odds that two are one, from never having been seen beside each other.
+
+        If they lie, or may lie, far apart for what the sensor reaches, they need not have been in
+        view together, and this says nothing.
 
         Args:
             times: sightings of either.
-            sigma: metres, of how far apart they are; if that is not small against what the sensor
-                reaches, they need not have been in view together.
+            sigma: metres, of how far apart they are.
+            apart: metres that they lie apart.
         """
-        return MISSED * min(times, ENOUGH) if sigma < self.reach / 3 else 0.0
+        beside = sigma < self.reach / 3 and apart < self.reach / 2
+        return MISSED * min(times, ENOUGH) if beside else 0.0
 
     def same(
         self, away: Floats, covariance: Floats, alike: float, times: int, spacing: float
@@ -96,4 +100,5 @@ class Scale:
             return -math.inf
         area = 2 * math.pi * math.sqrt(float(np.linalg.det(covariance)))
         sigma = math.sqrt(float(np.trace(covariance)) / 2)
-        return alike - square / 2 - math.log(area / spacing**2) + self.unseen(times, sigma)
+        unseen = self.unseen(times, sigma, float(np.hypot(*away)))
+        return alike - square / 2 - math.log(area / spacing**2) + unseen

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from symboslam.engine.slam.association import Association
+from symboslam.engine.slam.association import FAR, Association
 from symboslam.engine.slam.beliefs import ClassBeliefs
 from symboslam.engine.slam.joint import JointGraph, Member
 from symboslam.engine.slam.scale import Scale
@@ -55,6 +55,29 @@ def test_landmarks_of_two_names_are_two(robot: Any) -> None:
     rows = seen_at(0, 5, 3, 0, 1, 2, 3) | seen_at(1, 5, 3.05, 8, 9, 10)
     assert solved(robot("r", PATH, rows, key={0: "a", 1: "b"})).merge_near() == 0
     assert solved(robot("r", PATH, rows, key={0: "a"})).merge_near() == 1
+
+
+def test_landmarks_that_may_be_far_apart_have_to_be_surer_to_be_merged(robot: Any) -> None:
+    rows = seen_at(0, 5, 3, 0, 1, 2, 3) | seen_at(1, 5, 3.05, 8, 9, 10)
+
+    def merged(sigma: float, share: float) -> int:
+        found = solved(robot("r", PATH, rows))
+        graph, scale = found.graph, found.scale
+        graph.covariance = {label: np.eye(2) * sigma**2 / 2 for label in (0, 1)}
+        found.take_stock()
+        floor = (graph.settings.floor * scale.sigma) ** 2
+        odds = scale.same(
+            graph.xy[0] - graph.xy[1], np.eye(2) * (sigma**2 + floor),
+            float(found.alike[0, 1]), 7, graph.spacing,
+        )  # fmt: skip
+        assert odds > 0
+        graph.settings = SlamSettings(certainty=share * odds)
+        return found.merge_near()
+
+    assert FAR * 10 == 3
+    assert merged(3.5, 1.2) == 0
+    assert merged(3.5, 0.9) == 1
+    assert merged(2.5, 1.2) == 1
 
 
 def test_landmarks_far_apart_are_two(robot: Any) -> None:

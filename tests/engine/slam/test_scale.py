@@ -56,9 +56,10 @@ def test_the_deviation_of_ranges_is_the_mean_and_of_robots_the_largest() -> None
 
 def test_never_seen_together_counts_up_to_enough_times_and_only_if_near() -> None:
     found = scale((9, 0.5))
-    assert found.unseen(3, 1.0) == pytest.approx(1.2)
-    assert found.unseen(100, 1.0) == pytest.approx(8.0)
-    assert found.unseen(100, 3.0) == 0.0
+    assert found.unseen(3, 1.0, 1.0) == pytest.approx(1.2)
+    assert found.unseen(100, 1.0, 4.4) == pytest.approx(8.0)
+    assert found.unseen(100, 3.0, 1.0) == 0.0
+    assert found.unseen(100, 1.0, 4.6) == 0.0
 
 
 def test_odds_that_two_landmarks_are_one() -> None:
