@@ -44,6 +44,7 @@ class World:
         outliers: share of sightings with any range and bearing.
         meetings: whether robots see each other, as robots without a name.
         known_starts: how many robots know where they begin.
+        named: whether every landmark bears a name that is read whenever it is seen.
         wander: a random walk, which may see nothing twice for kilometres, instead of driving from
             one random place to the next.
     """
@@ -65,6 +66,7 @@ class World:
     outliers: float = 0.0
     meetings: bool = False
     known_starts: int = 3
+    named: bool = False
     wander: bool = False
 
 
@@ -206,6 +208,9 @@ def _look(
                     called[k - len(xy)] if is_robot else str(names[k]),
                 )
             )
+    key = np.full(len(rows), "", object)
+    if world.named:
+        key[:] = ["" if row[3] == ROBOT else row[4] for row in rows]
     sure = np.full(len(rows), 1 - max(world.misclassified, 0.01))
     seen = Measurements(
         np.array([row[0] for row in rows], float),
@@ -213,7 +218,7 @@ def _look(
         np.array([row[2] for row in rows], float),
         np.array([row[3] for row in rows], np.int64),
         sure,
-        np.full(len(rows), "", object),
+        key,
         world.sigma_range,
         world.sigma_bearing,
     )

@@ -82,3 +82,16 @@ def test_a_world_without_landmarks_has_no_sightings() -> None:
     mission = simulate(replace(TINY, landmarks=0), 3)
     assert [len(log.seen) for log in mission.robots] == [0, 0]
     assert [len(names) for names in mission.identity.values()] == [0, 0]
+
+
+def test_names_are_read_where_landmarks_bear_them() -> None:
+    plain, named = (
+        simulate(replace(TINY, meetings=True, named=named), 3) for named in (False, True)
+    )
+    for log, other in zip(named.robots, plain.robots, strict=True):
+        robots = log.seen.feature == ROBOT
+        assert robots.any()
+        assert log.seen.key[~robots].tolist() == named.identity[log.name][~robots].tolist()
+        assert set(log.seen.key[robots]) == {""}
+        assert set(other.seen.key) == {""}
+        assert other.seen.range.tolist() == log.seen.range.tolist()
