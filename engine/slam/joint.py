@@ -12,6 +12,7 @@ from typing import Any
 
 import gtsam
 import numpy as np
+from scipy.linalg import solve_triangular
 
 from symboslam.engine.slam import factors
 from symboslam.engine.slam.log import Closures, Floats, Ints
@@ -24,6 +25,8 @@ SCALE = 0.03
 """Standard deviation of the scale of odometry, before anything is known."""
 DRIFT = 0.01
 """The same of its steady turn, in radians a metre."""
+DENSE = 2500
+"""So many landmarks are inverted at once: 200 MB."""
 
 
 @dataclass
@@ -211,26 +214,60 @@ class JointGraph:
     def marginals(self) -> None:
         """Work out the covariances of the landmarks.
 
-        A graph that hardly says where a thing is is solved by QR, which is slower and more exact
-        than Cholesky; where that fails as well, the thing may be anywhere.
+        The poses are eliminated first (Schur complement), and what is left is inverted. Where it
+        is too large for that, or singular, landmarks are done one by one: by QR, which is slower
+        and more exact than Cholesky; where that fails as well, the thing may be anywhere.
 
         Raises:
             RuntimeError: the graph does not say where everything is.
         """
+        self._tree = None
+        labels = self.labels()
         try:
-            self._eliminate()
-            self.covariance = {label: self._marginal(label) for label in self.labels()}
-        except RuntimeError:
-            self._eliminate(gtsam.EliminateQR)
-            self.covariance = {label: self._marginal_or_loose(label) for label in self.labels()}
+            found = self._at_once(labels) if len(labels) <= DENSE else None
+            self.covariance = found or {label: self._marginal(label) for label in labels}
+        except (RuntimeError, np.linalg.LinAlgError):
+            self._tree = self._eliminated(gtsam.EliminateQR)
+            self.covariance = {label: self._marginal_or_loose(label) for label in labels}
 
-    def _eliminate(self, *how: Any) -> None:
+    def _at_once(self, labels: list[int]) -> dict[int, Floats]:
+        """Covariances of all landmarks, from the information that all poses leave to them.
+
+        Raises:
+            RuntimeError: the graph does not say where every pose is.
+            numpy.linalg.LinAlgError: nor where every landmark is.
+        """
+        if not labels:
+            return {}
+        linear = self._graph.linearize(self._values)
+        poses = [
+            factors.pose_key(number, n)
+            for number, member in enumerate(self.members)
+            for n in range(len(member.graph))
+        ]
+        _, left = linear.eliminatePartialMultifrontal(gtsam.KeyVector(poses))
+        ordering = gtsam.Ordering()
+        for label in labels:
+            ordering.push_back(factors.landmark_key(label))
+        information, _ = left.hessian(ordering)
+        root = np.linalg.cholesky(information)
+        inverse = solve_triangular(root, np.eye(len(root)), lower=True)
+        columns = inverse.reshape(len(root), len(labels), 2)
+        every = np.einsum("nla,nlb->lab", columns, columns)
+        return dict(zip(labels, every, strict=True))
+
+    def _eliminated(self, *how: Any) -> Any:
         linear = self._graph.linearize(self._values)
         ordering = gtsam.Ordering.ColamdGaussianFactorGraph(linear)
-        self._tree = linear.eliminateMultifrontal(ordering, *how)
+        return linear.eliminateMultifrontal(ordering, *how)
+
+    def _of(self, key: int) -> Floats:
+        if self._tree is None:
+            self._tree = self._eliminated()
+        return np.asarray(self._tree.marginalCovariance(key))
 
     def _marginal(self, label: int) -> Floats:
-        return np.asarray(self._tree.marginalCovariance(factors.landmark_key(label)))
+        return self._of(factors.landmark_key(label))
 
     def _marginal_or_loose(self, label: int) -> Floats:
         try:
@@ -241,7 +278,7 @@ class JointGraph:
     def pose_covariance(self, member: int, number: int) -> Floats:
         """(3, 3) of a key pose, in its own frame, after `marginals`."""
         try:
-            return np.asarray(self._tree.marginalCovariance(factors.pose_key(member, number)))
+            return self._of(factors.pose_key(member, number))
         except RuntimeError:
             return np.diag([*(2 * [(100 * self.spacing) ** 2]), np.pi**2])
 

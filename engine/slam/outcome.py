@@ -10,6 +10,11 @@ from symboslam.engine.slam.joining import Joining
 from symboslam.engine.slam.joint import JointGraph, Piece
 from symboslam.engine.slam.log import Floats
 from symboslam.engine.slam.slam_map import MappedLandmarks, SlamMap, Trajectory
+from symboslam.engine.slam.still import put_together
+from symboslam.engine.slam.tracks import OFTEN
+
+MANY = 100
+"""So many sightings tell whether things are seen often."""
 
 
 def outcome(
@@ -32,25 +37,24 @@ def outcome(
     groups: dict[int, list[Piece]] = {}
     for piece in graph.pieces:
         groups.setdefault(piece.label, []).append(piece)
-    next_label = max(groups, default=-1) + 1
-    for number, run in enumerate(placed):
-        for track in edges[run].moving.tracks:
-            piece = Piece(number, track, next_label)
-            graph.xy[next_label] = piece.where(graph.members[number].poses)[0]
-            groups[next_label] = [piece]
-            next_label += 1
-    once = [
-        label
-        for label, pieces in groups.items()
-        if len(pieces) == 1
-        and len(pieces[0].track.sightings) == 1
-        and not pieces[0].track.key
-        and edges[placed[pieces[0].member]].tracker.often
+    moving = [
+        Piece(number, track, -1)
+        for number, run in enumerate(placed)
+        for track in edges[run].moving.tracks
     ]
-    for label in once:
+    sigma = graph.settings.floor * joined.scale.sigma
+    put_together(graph, moving, max(groups, default=-1) + 1, sigma)
+    for piece in moving:
+        groups.setdefault(piece.label, []).append(piece)
+    seldom = _seldom(groups, graph.settings.confirm)
+    for label in seldom:
         del groups[label]
-    if once:
-        notes = [*notes, f"things seen once before others were seen often, left out: {len(once)}"]
+    if seldom:
+        notes = [
+            *notes,
+            f"things seen fewer than {graph.settings.confirm} times, where others are seen often, "
+            f"left out: {len(seldom)}",
+        ]
     labels = sorted(groups)
     landmarks = _landmarks(graph, groups, labels, dynamic, similarity)
     row = {label: n for n, label in enumerate(labels)}
@@ -68,6 +72,16 @@ def outcome(
         tuple(doubts),
         tuple(notes),
     )
+
+
+def _seldom(groups: dict[int, list[Piece]], confirm: int) -> list[int]:
+    """Labels of what was seen too seldom to be there, where most things are seen often."""
+    times = {n: sum(len(p.track.sightings) for p in pieces) for n, pieces in groups.items()}
+    total = sum(times.values())
+    if total <= MANY or 2 * sum(n for n in times.values() if n >= OFTEN) <= total:
+        return []
+    named = {n for n, pieces in groups.items() if any(p.track.key for p in pieces)}
+    return [n for n, seen in times.items() if seen < confirm and n not in named]
 
 
 def _landmarks(

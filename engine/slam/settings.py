@@ -26,6 +26,8 @@ class SlamSettings:
         floor: metres by which merged landmarks may lie apart beside their covariances, as a share
             of the standard deviation of ranges.
         rounds: of merging, at most.
+        confirm: a thing has to be seen so many times to be in the map, if others are seen often
+            (track confirmation).
         repairs: so many times a doubted robot is mapped again, at most.
     """
 
@@ -39,4 +41,5 @@ class SlamSettings:
     kernel: float = 2.0
     floor: float = 0.5
     rounds: int = 15
+    confirm: int = 2
     repairs: int = 6

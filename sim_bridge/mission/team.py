@@ -32,7 +32,7 @@ from symboslam.sim_bridge.worlds.world import World
 
 Pose = tuple[float, float, float]
 
-MAPPING = SlamSettings(interval=1.0, every=5, join=0.03, hold=0.03, repairs=1)
+MAPPING = SlamSettings(interval=1.0, every=5, join=0.03, hold=0.03, confirm=3, repairs=1)
 """A key pose a second, half as many as by default, which takes half the time. Each picture of a
 camera that turns shows little, so that landmarks seem farther apart than they are: `join` and
 `hold` are smaller shares of that. Repairs take the longest by far."""

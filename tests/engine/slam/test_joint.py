@@ -50,6 +50,25 @@ def test_covariances_grow_with_the_way(robot: Any) -> None:
     assert np.linalg.eigvalsh(graph.pose_covariance(0, 4)).min() > 0
 
 
+def test_covariances_at_once_are_those_one_by_one(
+    robot: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rows = {n: [(n, 2, 1), (n + 1, 1, 1)] for n in range(6)} | {6: [(0, 3, 3), (6, -3, 3)]}
+    members = [robot(name, [(n, 0, 0) for n in range(8)], rows) for name in ("r", "s")]
+    graph = JointGraph(members, SlamSettings(), 5.0)
+    for number, member in enumerate(members):
+        member.renumber(number)
+    graph.solve(2.0)
+    graph.marginals()
+    at_once = graph.covariance
+    monkeypatch.setattr("symboslam.engine.slam.joint.DENSE", 0)
+    graph.marginals()
+    assert sorted(at_once) == sorted(graph.covariance) == list(range(7))
+    for label, one in graph.covariance.items():
+        assert at_once[label] == pytest.approx(one, rel=1e-6)
+        assert at_once[label] == pytest.approx(at_once[label].T)
+
+
 def test_what_hardly_holds_may_be_anywhere(robot: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     """Marginals that cannot be had of one landmark: QR for the others, a loose one for it."""
     marks = {0: [(0, 2, 0)], 1: [(4, 6, 0)]}
@@ -65,6 +84,10 @@ def test_what_hardly_holds_may_be_anywhere(robot: Any, monkeypatch: pytest.Monke
             raise RuntimeError("Indeterminate linear system")
         return marginal(self, label)
 
+    def singular(self: JointGraph, labels: list[int]) -> Any:
+        raise np.linalg.LinAlgError("not positive definite")
+
+    monkeypatch.setattr(JointGraph, "_at_once", singular)
     monkeypatch.setattr(JointGraph, "_marginal", fails)
     graph.marginals()
     assert graph.covariance[0] == pytest.approx(sound, rel=1e-6)
