@@ -81,7 +81,7 @@ def slam(seeds: int, poses: int, tiny: bool = False) -> str:
                 ("The paper's rule", {n: each["paper"] for n, each in results.items()}),
                 ("Dead reckoning", {n: each["odometry"] for n, each in results.items()}),
             )),
-            "" if tiny else _targets({name: each["ours"] for name, each in results.items()}),
+            "" if tiny else _targets({name: each["ours"] for name, each in results.items()}, seeds),
             "**Crashed, and in no table: " + "; ".join(failed) + "**" if failed else "",
             mrclam(tiny) if parts == [""] or "mrclam" in parts else "",
             online(poses, tiny) if parts == [""] or "online" in parts else "",
@@ -177,11 +177,13 @@ def seen(result: Result) -> int:
     return 0 if known is None else len(known.stands) + len(known.missed)
 
 
-def _targets(results: Mapping[str, Sequence[Result]]) -> str:
+def _targets(results: Mapping[str, Sequence[Result]], seeds: int) -> str:
     rows = []
     for name, target in MEAN_M.items():
         if name in results:
             rows.append(verdict(f"{name}: mean error m", errors(results[name]).mean(), target))
+            if len(results[name]) < seeds:
+                rows[-1][-1] = "MISSED (crashed)"
     if "town" in results:
         town = results["town"]
         mapped = sum(r.figures.landmarks_mapped for r in town)

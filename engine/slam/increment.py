@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from symboslam.engine.readers.checks import LONGEST_ID, UNWRITABLE
-from symboslam.engine.slam.log import Floats, Ints, Pose
+from symboslam.engine.slam.log import FINEST, Floats, Ints, Pose
 from symboslam.errors import InputError
 
 AHEAD = 1000
@@ -157,8 +157,8 @@ class EdgeIncrement:
             _all((number >= 0) & (number < poses), name, f"not the number of a pose below {poses}")
         _all(~(self.range < 0), "range", "below 0")
         for name in ("sigma_range", "sigma_bearing"):
-            _all(getattr(self, name) > 0, name, "not above 0")
-        _all(self.fix[:, 2] > 0, "fix", "of a deviation that is not above 0")
+            _all(getattr(self, name) >= FINEST, name, f"not {FINEST:g} or more")
+        _all(self.fix[:, 2] >= FINEST, "fix", f"of a deviation that is not {FINEST:g} or more")
         _all((self.confidence > 0) & (self.confidence <= 1), "confidence", "not in (0, 1]")
         _all(self.track >= -1, "track", "below -1")
 

@@ -15,7 +15,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from symboslam.engine.slam.log import SIGMA_BEARING, SIGMA_RANGE, OdometryNoise, RobotLog
+from symboslam.engine.slam.log import (
+    FARTHEST,
+    FINEST,
+    SIGMA_BEARING,
+    SIGMA_RANGE,
+    OdometryNoise,
+    RobotLog,
+)
 from symboslam.engine.slam.pose_graph import Fix, PoseGraph, Sighting
 
 STILL = 0.01, math.radians(0.5)
@@ -66,6 +73,9 @@ class KeyPoses:
         if not math.isfinite(time + x + y + heading):
             self.problems["odometry that is not finite, left out"] += 1
             return []
+        if max(abs(x), abs(y)) > FARTHEST:
+            self.problems[f"odometry beyond {FARTHEST:g} m, left out"] += 1
+            return []
         pose, (before, there) = (x, y, heading), self._to
         if time <= before:
             if time < before or pose != there:
@@ -109,10 +119,10 @@ class KeyPoses:
         self._rows = row + 1
         if not math.isfinite(time) or (math.isnan(range) and math.isnan(bearing)):
             self.problems["measurements without time, or without range and bearing, left out"] += 1
-        elif math.isinf(range) or math.isinf(bearing) or range <= 0:
+        elif range > FARTHEST or math.isinf(bearing) or range <= 0:
             self.problems["measurements whose range or bearing cannot be, left out"] += 1
-        elif not all(0 < each < math.inf for each in sigma):
-            self.problems["measurements with a deviation not above 0, left out"] += 1
+        elif not all(FINEST <= each <= FARTHEST for each in sigma):
+            self.problems[f"measurements with a deviation below {FINEST:g} or none, left out"] += 1
         elif not 0 < confidence <= 1:
             self.problems["measurements with a confidence outside (0, 1], left out"] += 1
         elif self._repeated(time, range, bearing, feature, key):
@@ -133,7 +143,7 @@ class KeyPoses:
 
     def fix(self, time: float, x: float, y: float, sigma: float) -> None:
         """A position from outside, of the key pose before it."""
-        if not math.isfinite(time + x + y + sigma) or sigma <= 0:
+        if not math.isfinite(time + x + y) or not FINEST <= sigma <= FARTHEST:
             self.problems["positions from outside that cannot be, left out"] += 1
         elif not len(self.graph) or time < self.graph.time[0] - TINY:
             self.problems["positions from outside before the first odometry, left out"] += 1

@@ -15,6 +15,10 @@ Pose = tuple[float, float, float]
 ROBOT = -1
 """Class of a robot that was seen."""
 
+FARTHEST = 1e8
+"""Metres; no two places on a planet are farther apart, so that more is a mistake."""
+FINEST = 1e-9
+"""Metres or radians; no sensor has a smaller deviation."""
 SIGMA_RANGE, SIGMA_BEARING = 0.5, 0.02
 """Metres and radians of sightings that do not say how good they are."""
 

@@ -87,7 +87,7 @@ def read_sides(
 
 
 def score_sides(estimate: Side, truth: Side, options: Options) -> SlamScore:
-    """Compare what ``read_sides`` read; classes of landmarks agree if their names do."""
+    """Compare what ``read_sides`` read; classes agree if their names do, spaces and case aside."""
     none = Points(np.empty(0, object), np.empty((0, 2)), np.empty(0, np.int64))
     points = [side.points or none for side in (estimate, truth)]
     classes = 1 + max((int(p.feature.max(initial=0)) for p in points), default=0)
@@ -125,6 +125,11 @@ def _side(source: Path, landmarks: Path | None, classes: Codes) -> Side:
     return Side(paths, points, tuple(notes))
 
 
+def _plain(label: str) -> str:
+    """A class without case, spaces and punctuation: map building writes BusStop for Bus Stop."""
+    return "".join(c for c in label.casefold() if c.isalnum()) or label
+
+
 def read_points(path: Path, classes: Codes) -> Points:
     """Landmarks of a GeoJSON or CSV file (class, x, y, maybe id), in metres.
 
@@ -144,7 +149,7 @@ def read_points(path: Path, classes: Codes) -> Points:
             source=str(path),
         )
     check_positions(columns, CoordinateSystem(METRES, degrees=False))
-    number = np.array([classes[label] for label, _ in columns.kinds], np.int64)
+    number = np.array([classes[_plain(label)] for label, _ in columns.kinds], np.int64)
     return Points(
         make_ids(columns).astype(object),
         np.column_stack([columns.x, columns.y]),

@@ -74,7 +74,8 @@ def wrong_starts(graph: JointGraph) -> dict[int, str]:
         number: (
             f"{graph.members[number].name}: the start that it was given is "
             f"{math.hypot(*off[:2]):.1f} m and {math.degrees(abs(off[2])):.0f} degrees off where "
-            f"the rest of the map has it ({math.sqrt(square):.0f} standard deviations)"
+            f"the rest of the map has it ({math.sqrt(square):.0f} standard deviations); the map "
+            "was bent to meet it, so that it may be farther off"
         )
         for square, number, off in sorted(found, key=lambda each: -each[0])
     }

@@ -43,7 +43,7 @@ class ControlAgent:
         self._bumps = [0] * len(agents)
         self._goal: list[Goal | None] = [None] * len(agents)
         self._until = [math.inf] * len(agents)
-        self._leash = [Leash() for _ in agents]
+        self._leash = [Leash(search.area.speed) for _ in agents]
 
     def assign(self, time: float, seconds: float) -> dict[str, Point | None]:
         """Goals for the next ``seconds``; a robot with a target has it in ``EdgeAgent.target``."""
@@ -58,7 +58,7 @@ class ControlAgent:
                 way = goal.distance_from(x, y) / self._search.area.speed
                 self._until[n] = time + SLOW * way + GRACE
             self._goal[n] = goal
-            back = self._leash[n].pull((x, y), agent.sigma)
+            back = self._leash[n].pull(time, (x, y), agent.sigma)
             if time < SCAN:
                 found[agent.name] = None
             elif back is not None and not agent.lost:

@@ -22,28 +22,43 @@ THERE = 25.0
 """Metres from a place that are there."""
 
 
+SHARE = 0.2
+"""Of its time a robot spends so much on ways back, beyond `CREDIT`: a search has to end."""
+CREDIT = 120.0
+"""Seconds."""
+
+
 class Leash:
     """Where one robot has been, how well it knew that, and whether it goes back.
+
+    Args:
+        speed: of the robot, metres a second.
 
     Attributes:
         goal: the place to go back to; None while the robot is free.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, speed: float) -> None:
+        self._speed = speed
+        self._time = self._spent = 0.0
         self._places: list[tuple[float, float, float]] = []
         self._tried: set[int] = set()
         self._at = -1
         self._enough = 0.0
         self.goal: Point | None = None
 
-    def pull(self, place: Point, sigma: float) -> Point | None:
+    def pull(self, time: float, place: Point, sigma: float) -> Point | None:
         """Where to go back to, if the robot has to.
 
         Args:
+            time: seconds since it set out.
             place: where it believes to be, metres.
             sigma: standard deviation of that along one axis, metres.
         """
         self._remember(place, sigma)
+        if self.goal is not None:
+            self._spent += time - self._time
+        self._time = time
         if self.goal is not None:
             if sigma < self._places[self._at][2] + SHORT:
                 self.goal = None
@@ -66,9 +81,11 @@ class Leash:
         if sigma < self._enough:
             return
         best, least = -1, math.inf
+        reach = self._speed * (SHARE * self._time + CREDIT - self._spent)
         for n, (x, y, then) in enumerate(self._places):
-            cost = math.dist(place, (x, y)) / DEAR + then
-            if n not in self._tried and then + LONG < sigma and cost < least:
+            way = math.dist(place, (x, y))
+            cost = way / DEAR + then
+            if n not in self._tried and way < reach and then + LONG < sigma and cost < least:
                 best, least = n, cost
         if best >= 0:
             self._at = best

@@ -96,8 +96,8 @@ def read_mission(
     given = {key: value for key, value in options.items() if value is not None}
     for key in given:
         if key not in chosen.options:
-            known = ", ".join(chosen.options) or "none"
-            raise InputError(f"the format {name} has no option {key!r}; it has: {known}")
+            able = ", ".join(n for n, each in FORMATS.items() if key in each.options) or "no format"
+            raise InputError(f"the format {name} has no option {key!r}, only: {able}")
     if not chosen.several and not isinstance(path, str | Path):
         raise InputError(f"the format {name} is read from one file or folder")
     mission, notes = chosen.load()(_paths(path), **given)
@@ -136,6 +136,9 @@ def format_of(path: AnyPath | Sequence[AnyPath], format: str | None = None) -> s
         return format
     if not isinstance(path, str | Path):
         logs = all(_plain(Path(each)).endswith(FORMATS["ndjson"].suffixes) for each in path)
+        other = [f for f in map(Path, path) if _plain(f).endswith(FORMATS["tum"].suffixes)]
+        if other:
+            raise InputError(f"{other[0]}: several files at once are read of CSV and NDJSON alone")
         return "ndjson" if logs and path else "csv"
     where = Path(path)
     if where.is_dir():

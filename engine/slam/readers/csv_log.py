@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -10,6 +11,8 @@ from numpy.typing import NDArray
 
 from symboslam.engine.readers.columns import FeatureIndex
 from symboslam.engine.slam.log import (
+    FARTHEST,
+    FINEST,
     SIGMA_BEARING,
     SIGMA_RANGE,
     Fixes,
@@ -57,6 +60,8 @@ DETECTIONS = {
     "sigma_bearing": ("bearing_sigma", "bearing_std", "std_bearing"),
 }
 FIXES = {"time": TIME, "robot": ROBOT_NAMES, **PLACE, "sigma": ("std", "accuracy", "sigma_m")}
+DEGREES = 0.1
+"""Share of bearings beyond a turn from which they are not in radians."""
 STARTS = {"robot": ROBOT_NAMES, **PLACE, **HEADING}
 SIGMAS = {"sigma_range": SIGMA_RANGE, "sigma_bearing": SIGMA_BEARING}
 SIGMA_FIX = 3.0
@@ -202,7 +207,8 @@ def _odometry(table: Columns, notes: list[str]) -> dict[str, Odometry]:
         values = values[_left_out(rows, bad, "with NaN or empty cells", notes)]
         label = f"{table.path.name}, {name}"
         values = values[in_order(values[:, 0], label, notes)]
-        values = values[one_a_time(values[:, 0], label, notes)]
+        places = values[:, 1:3] if poses else None
+        values = values[one_a_time(values[:, 0], label, notes, places)]
         if not len(values):
             notes.append(f"{label}: no row of odometry can be used; the robot is left out")
             continue
@@ -230,13 +236,20 @@ def _detections(
     time, reach = table.times(notes), table.floats("range")
     bearing = _angle(table, "bearing", "bearing_deg")
     confidence = table.floats("confidence", empty=1.0)
+    turns = np.abs(bearing[np.isfinite(bearing)])
+    beyond = turns > math.tau
+    if "bearing" in table and beyond.sum() >= DEGREES * max(len(beyond), 20):
+        raise InputError(
+            f"{table.path}: bearings reach {turns.max():.0f}, and should be in "
+            "radians; a column of degrees is called bearing_deg"
+        )
     bad = ~((confidence > 0) & (confidence <= 1)) & ~np.isnan(confidence)
     if bad.any():
         raise table.wrong(int(np.argmax(bad)), "confidence", "not in (0, 1]")
     good = _left_out(table, ~np.isfinite(time), "without a time", notes)
     early: NDArray[np.bool_] = good & (time < odometry.time[0])
     good &= _left_out(table, early, "from before the first odometry", notes)
-    negative = good & ((reach < 0) | np.isinf(reach) | np.isinf(bearing))
+    negative = good & ((reach < 0) | (reach > FARTHEST) | np.isinf(bearing))
     good &= _left_out(table, negative, "with a range below 0 or infinity", notes)
     blind = good & np.isnan(reach) & np.isnan(bearing)
     good &= _left_out(table, blind, "with neither range nor bearing", notes)
@@ -249,10 +262,7 @@ def _detections(
             )
     late = int((time[good] > odometry.time[-1]).sum())
     if late:
-        notes.append(
-            f"{table.path.name}: {count(late, 'row')} from after the last odometry kept: the "
-            "robot is taken to stand still from then on"
-        )
+        notes.append(f"{table.path.name}: {count(late, 'row')} from after the last odometry")
     unsure = int(np.isnan(confidence[good]).sum())
     if unsure:
         notes.append(
@@ -265,9 +275,9 @@ def _detections(
     }
     for name, sigma in sigmas.items():
         sigma[np.isnan(reach if name == "sigma_range" else bearing)] = SIGMAS[name]
-        wrong = good & ~((sigma > 0) & np.isfinite(sigma))
+        wrong = good & ~((sigma >= FINEST) & (sigma <= FARTHEST))
         if wrong.any():
-            raise table.wrong(int(np.argmax(wrong)), name, "not above 0")
+            raise table.wrong(int(np.argmax(wrong)), name, f"not from {FINEST:g} to {FARTHEST:g}")
     feature = [classes.position_of(name) for name in table.texts("class")[index].tolist()]
     return Measurements(
         time=time[index],
@@ -298,8 +308,10 @@ def _starts(table: Columns, robots: tuple[str, ...], notes: list[str]) -> dict[s
         values = np.column_stack([rows.floats("x"), rows.floats("y"), angle])
         if len(values) > 1:
             raise InputError(f"{rows.where(1)}: {name} has a second start")
-        if not np.isfinite(values).all():
-            raise InputError(f"{rows.where(0)}: a start needs x, y and heading")
+        if not (np.isfinite(values).all() and np.abs(values).max() <= FARTHEST):
+            raise InputError(
+                f"{rows.where(0)}: a start needs x, y and heading, no farther than {FARTHEST:g}"
+            )
         x, y, heading = values[0].tolist()
         found[name] = (x, y, heading)
     return found

@@ -71,7 +71,7 @@ def _log(file: Path, name: str, classes: Classes, notes: list[str]) -> RobotLog:
     if not len(driven):
         raise InputError(f"{file}: it holds no odometry")
     driven = driven[in_order(driven[:, 0], f"{file.name}, odometry", notes)]
-    driven = driven[one_a_time(driven[:, 0], f"{file.name}, odometry", notes)]
+    driven = driven[one_a_time(driven[:, 0], f"{file.name}, odometry", notes, driven[:, 1:3])]
     seen = [r for r in records if isinstance(r, SightingRecord)]
     order = in_order(np.array([r.time for r in seen]), f"{file.name}, sightings", notes)
     seen = [seen[n] for n in order.tolist()]

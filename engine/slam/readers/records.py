@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from symboslam.engine.slam.log import ROBOT, Pose, RobotLog
+from symboslam.engine.slam.log import FINEST, ROBOT, Pose, RobotLog
 from symboslam.errors import InputError
 
 ROBOT_CLASS = "Robot"
@@ -136,8 +136,8 @@ def _sigma(found: object) -> tuple[float, float]:
     if not isinstance(found, list) or len(found) != 2 or not all(map(_is_number, found)):
         raise InputError("sigma is not two finite numbers")
     of_range, of_bearing = map(float, found)
-    if min(of_range, of_bearing) <= 0:
-        raise InputError("sigma is not above 0")
+    if min(of_range, of_bearing) < FINEST:
+        raise InputError(f"sigma is not {FINEST:g} or more")
     return of_range, of_bearing
 
 

@@ -6,6 +6,12 @@ import numpy as np
 
 from symboslam.engine.slam.log import Floats, Ints
 from symboslam.engine.slam.readers.text import count
+from symboslam.errors import InputError
+
+APART = 0.1
+"""Metres; nearer places are one."""
+TWICE = 10
+"""So many times in two places at once are no accident."""
 
 
 def in_order(time: Floats, name: str, notes: list[str]) -> Ints:
@@ -32,10 +38,27 @@ def without_repeats(rows: Floats, name: str, notes: list[str]) -> Ints:
     return np.asarray(kept, np.int64)
 
 
-def one_a_time(time: Floats, name: str, notes: list[str]) -> Ints:
-    """(k,) of rows in order of time, the last of each time: odometry is in one place at a time."""
+def one_a_time(time: Floats, name: str, notes: list[str], xy: Floats | None = None) -> Ints:
+    """(k,) of rows in order of time, the last of each time: odometry is in one place at a time.
+
+    Args:
+        time: (n,) seconds, in order.
+        name: of the file or robot, for messages.
+        notes: is told what was left out.
+        xy: (n, 2) metres, where the rows say it was.
+
+    Raises:
+        InputError: it was in two places most of the time: two robots have one name.
+    """
     last = np.append(np.diff(time) > 0, True) if len(time) else np.zeros(0, np.bool_)
     if not last.all():
+        if xy is not None:
+            twice = int((np.hypot(*np.diff(xy, axis=0).T)[~last[:-1]] > APART).sum())
+            if twice >= TWICE and 2 * twice > last.sum():
+                raise InputError(
+                    f"{name}: in two places at once at {twice} of {last.sum()} times: two robots "
+                    "under one name? Give each a name of its own"
+                )
         notes.append(
             f"{name}: {count(int((~last).sum()), 'row')} left out that another row of the same "
             "time contradicts; the last one counts"

@@ -240,12 +240,12 @@ def test_each_sighting_keeps_its_own_deviations() -> None:
     ]  # fmt: skip
 
 
-@pytest.mark.parametrize("sigma", [0.0, -0.5, math.nan, math.inf])
+@pytest.mark.parametrize("sigma", [0.0, -0.5, 1e-200, math.nan, math.inf])
 def test_a_deviation_that_cannot_be_is_left_out_and_counted(sigma: float) -> None:
     found = driven(keys(), 2)
     assert found.sighting(1, 5, 0.1, 0, 0.9, "", sigma, 0.02) == []
     assert found.sighting(1, 5, 0.1, 0, 0.9, "", 0.5, sigma) == []
-    assert told(found) == {"measurements with a deviation not above 0, left out": 2}
+    assert told(found) == {"measurements with a deviation below 1e-09 or none, left out": 2}
 
 
 def test_the_deviation_of_what_was_not_measured_does_not_matter() -> None:
@@ -272,3 +272,15 @@ def test_a_log_replays_the_deviations_of_its_rows() -> None:
     assert {s.row: (s.sigma_range, s.sigma_bearing) for s in found.graph.sightings} == {
         0: (0.2, 0.03), 1: (0.1, 0.03),
     }  # fmt: skip
+
+
+def test_what_lies_beyond_a_planet_is_left_out_and_counted() -> None:
+    found = driven(keys(), 2)
+    assert found.odometry(2.5, 1e200, 0, 0) == []
+    assert found.sighting(1, 1e300, 0.1, 0, 0.9, "", 0.5, 0.02) == []
+    found.fix(1, 1, 2, 1e-200)
+    assert told(found) == {
+        "odometry beyond 1e+08 m, left out": 1,
+        "measurements whose range or bearing cannot be, left out": 1,
+        "positions from outside that cannot be, left out": 1,
+    }

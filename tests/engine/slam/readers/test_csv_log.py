@@ -21,6 +21,9 @@ DETECTIONS = (
     "1.5,,0.2,Car,,\n"
     "1,3,,Wombat,0.5,No. 7\n"
 )
+TWO_AT_ONCE = "time,x,y,heading\n" + "".join(
+    f"{t},{x},0,0\n" for t in range(12) for x in (t, 9 - t)
+)
 SIGMAS = "time,range,bearing,sigma_range,sigma_bearing\n"
 
 
@@ -145,8 +148,7 @@ def test_what_is_mended(write: Write) -> None:
         "detections.csv: 1 row from before the first odometry left out, the first in line 2",
         "detections.csv: 1 row with a range below 0 or infinity left out, the first in line 5",
         "detections.csv: 2 rows with neither range nor bearing left out, the first in line 3",
-        "detections.csv: 1 row from after the last odometry kept: the robot is taken to stand "
-        "still from then on",
+        "detections.csv: 1 row from after the last odometry",
         "detections.csv: 1 row with a confidence of NaN: read as 1",
         "detections.csv: time goes back at 1 row, by up to 8 s; rows were sorted by time",
     ]
@@ -174,10 +176,16 @@ def test_times_of_the_calendar(write: Write) -> None:
         ({"odometry": 'time,x,y,heading\n0,"0,0,0\n'}, "line 2: this is not valid CSV"),
         ({"detections": "time,class\n0,Tree\n"}, "a column range or bearing is needed"),
         ({"detections": "time,range,confidence\n0,1,1.5\n"}, "line 2: confidence is '1.5', not in"),
-        ({"detections": f"{SIGMAS}0,1,0,0,0.1\n"}, "line 2: sigma_range is '0', not above 0"),
-        ({"detections": f"{SIGMAS}0,1,0,1,-0.1\n"}, "line 2: sigma_bearing is '-0.1', not above 0"),
+        ({"detections": f"{SIGMAS}0,1,0,0,0.1\n"}, "line 2: sigma_range is '0', not from"),
+        ({"detections": f"{SIGMAS}0,1,0,1,-0.1\n"}, "line 2: sigma_bearing is '-0.1', not from"),
         ({"detections": f"{SIGMAS}0,1,0,1,1\n1,1,0,nan,1\n"}, "line 3: sigma_range is 'nan', not"),
-        ({"detections": f"{SIGMAS}0,1,0,inf,1\n"}, "line 2: sigma_range is 'inf', not above 0"),
+        ({"detections": f"{SIGMAS}0,1,0,inf,1\n"}, "line 2: sigma_range is 'inf', not from"),
+        ({"detections": f"{SIGMAS}0,1,0,1e-200,1\n"}, "line 2: sigma_range is '1e-200', not from"),
+        ({"detections": "time,range,bearing\n0,1,170\n0,2,-95\n0,3,6\n0,4,8"},
+         "bearings reach 170, and should be in radians; a column of degrees is called bearing_deg"),
+        ({"odometry": TWO_AT_ONCE},
+         "odometry.csv, Robot 1: in two places at once at 12 of 12 times: two robots under one"),
+        ({"starts": "robot,x,y,heading\nRobot 1,1e300,0,0\n"}, "no farther than 1e+08"),
         ({"detections": "time,range,bearing,bearing_deg\n0,1,1,1\n"}, "both bearing and"),
         ({"fixes": "time,lon,lat\n0,1,1\n"}, "fixes.csv: header: columns x and y, in metres"),
         ({"starts": "robot,x,y,heading\nRobot 1,1,,0\n"}, "a start needs x, y and heading"),

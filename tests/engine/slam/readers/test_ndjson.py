@@ -73,6 +73,8 @@ def test_what_cannot_be_read_is_refused(tmp_path: Path) -> None:
 def test_files_of_several_robots_tell_their_format(tmp_path: Path) -> None:
     assert format_of([tmp_path / "a.ndjson", tmp_path / "b.jsonl.gz"]) == "ndjson"
     assert format_of([tmp_path / "odometry.csv", tmp_path / "b.ndjson"]) == "csv"
+    with pytest.raises(InputError, match=r"a\.tum: several files at once are read of CSV and"):
+        format_of([tmp_path / "a.tum", tmp_path / "b.tum"])
 
 
 def test_each_sighting_keeps_its_own_deviations(tmp_path: Path) -> None:

@@ -45,8 +45,8 @@ def test_records_are_read() -> None:
         ('{"time": 1, "class": "House", "range": 1, "sigma": 0.5}', "sigma is not two finite"),
         ('{"time": 1, "class": "House", "range": 1, "sigma": [0.5]}', "sigma is not two finite"),
         ('{"time": 1, "class": "House", "range": 1, "sigma": [NaN, 1]}', "sigma is not two finite"),
-        ('{"time": 1, "class": "House", "range": 1, "sigma": [0.5, 0]}', "sigma is not above 0"),
-        ('{"time": 1, "class": "House", "range": 1, "sigma": [-1, 1]}', "sigma is not above 0"),
+        ('{"time": 1, "class": "House", "range": 1, "sigma": [0.5, 0]}', "sigma is not 1e-09"),
+        ('{"time": 1, "class": "House", "range": 1, "sigma": [-1, 1]}', "sigma is not 1e-09"),
         ('{"time": 1, "class": "House", "range": 1, "colour": 0}', "colour"),
     ],
 )  # fmt: skip
