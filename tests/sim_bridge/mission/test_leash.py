@@ -56,7 +56,7 @@ def test_ways_back_take_a_share_of_the_time_at_most() -> None:
     assert driven((0, 0)).pull(0, (1199, 0), 25) == (0, 0)
     assert driven((0, 0)).pull(100, (1399, 0), 25) == (0, 0)
     leash = driven((0, 0))
-    assert leash.pull(100, (900, 0), 25) == (0, 0)
+    assert leash.pull(100, (900, 0), 30) == (0, 0)
     assert leash.pull(190, (THERE - 1, 0), 25) is None  # 90 of 158 s are spent: 68 are left
-    assert leash.pull(200, (710, 0), 40) is None
-    assert leash.pull(200, (690, 0), 40) == (0, 0)
+    assert leash.pull(200, (735, 0), 46) is None  # (24, 0) is 711 m away
+    assert leash.pull(200, (720, 0), 46) == (24, 0)
