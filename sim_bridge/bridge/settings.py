@@ -26,7 +26,7 @@ class CameraSpec:
     fov: float = math.radians(90)
     mount: float = 1.5
     near: float = 0.3
-    far: float = 120.0
+    far: float = 100.0
     rate: float = 2.0
     pan: tuple[float, ...] = tuple(math.radians(pan) for pan in (0, 90, -90, 180))
 
@@ -58,7 +58,7 @@ class LidarSpec:
         mount: metres above the ground; low, so that a cat is hit.
     """
 
-    reach: float = 120.0
+    reach: float = 100.0
     step: float = math.radians(0.5)
     span: float = math.pi
     mount: float = 0.25
