@@ -25,8 +25,8 @@ SCALE = 0.03
 """Standard deviation of the scale of odometry, before anything is known."""
 DRIFT = 0.01
 """The same of its steady turn, in radians a metre."""
-DENSE = 2500
-"""So many landmarks are inverted at once: 200 MB."""
+DENSE = 1500
+"""So many landmarks are inverted at once, in some 400 MB."""
 
 
 @dataclass
