@@ -133,7 +133,7 @@ def plan(area: Area, places: list[Place]) -> list[Lanes]:
                 totals = np.add(lengths, first)
                 k = int(np.argmin(totals))
                 cost[i, j], chosen[i, j] = totals[k], ways[k]
-        rows, columns = linear_sum_assignment((cost / cost.max()) ** 8)  # the last one counts
+        rows, columns = linear_sum_assignment((cost / max(cost.max(), 1.0)) ** 8)  # the last counts
         longest = float(cost[rows, columns].max())
         if longest < shortest - 1e-6:
             shortest = longest

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from symboslam.errors import WorldError
+from symboslam.sim_bridge.worlds.frequencies import real_frequencies
 from symboslam.sim_bridge.worlds.world import Start, World, footprints
 
 Notes = tuple[str, ...]
@@ -90,7 +91,11 @@ def _zone_notes(world: World) -> list[str]:
         shapes[a].intersection(shapes[b]).area
         for a, b in zip(first[both].tolist(), second[both].tolist(), strict=True)
     ]
-    notes = []
+    known = {*real_frequencies().environments, "Military"}  # no real zone of the latter
+    notes = [
+        f"environment {name!r} is none of ours: {', '.join(sorted(known))}"
+        for name in sorted({zone.environment for zone in world.zones} - set(known))
+    ]
     if (over := sum(area > _SLIVER for area in areas)) > 0:
         notes.append(f"{_many(over, 'pair')} of zones overlap: the smaller zone counts there")
     e = world.extent
@@ -131,7 +136,8 @@ def free_starts(
             raise WorldError(problem, source=source, where=f"starts[{number}]")
         if place != start:
             distance = math.hypot(place.x - start.x, place.y - start.y)
-            notes.append(f"start {number} was not free and moved by {distance:.1f} m")
+            why = "not free" if world.extent.has(start.x, start.y) else "outside the extent"
+            notes.append(f"start {number} was {why} and moved by {distance:.1f} m")
         taken.append(place)
     return replace(world, starts=tuple(taken)), notes
 

@@ -163,3 +163,9 @@ def test_a_search_of_ones_own() -> None:
     trial = run_trial(SMALL, Lazy, FEW, 5)
     assert (trial.paths[-1] == trial.paths[0]).all()
     assert trial.metrics.driven[-1] == 0
+
+
+def test_an_area_that_is_all_in_view_takes_no_way() -> None:
+    area = Area((0, 0, 60, 60), ((30, 30, 0.0),), 10, 80, 2 * math.pi)
+    (way,) = plan(area, [(30.0, 30.0)])
+    assert path_length(way) + math.dist((30, 30), way[0].start) < 60

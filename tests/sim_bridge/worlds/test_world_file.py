@@ -267,3 +267,11 @@ def test_large_files_are_read(tmp_path: Path) -> None:
     world, notes = read_world(tmp_path / "w.json")
     assert len(world.objects) == count
     assert notes == ()
+
+
+def test_environments_that_are_none_of_ours_are_noted() -> None:
+    zones = [{"environment": name, "polygon": [SQUARE]} for name in ("Moon", "Military")]
+    _, notes = world_of(document(objects=[], zones=zones[:1]))
+    assert [note for note in notes if "'Moon'" in note and "Residential" in note]
+    _, notes = world_of(document(objects=[], zones=zones[1:]))
+    assert not [note for note in notes if "none of ours" in note]
