@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
 from collections.abc import Sequence
 from enum import StrEnum
@@ -16,8 +17,10 @@ from symboslam.errors import InputError
 
 if TYPE_CHECKING:
     from symboslam.cli.common import Progress
+    from symboslam.reasoning.knowledge import Knowledge
     from symboslam.sim_bridge.mission.mission import Tick
     from symboslam.sim_bridge.mission.outcome import Result
+    from symboslam.sim_bridge.worlds.world import World
 
 EXAMPLES = """
 [bold]Examples[/]
@@ -113,6 +116,10 @@ def run(
         ),
     ] = None,
     speed: Annotated[float, typer.Option(metavar="M/S", help="Of the robots, at most.")] = 10.0,
+    reach: Annotated[
+        float,
+        typer.Option("--range", metavar="M", help="Within which ground counts as looked at."),
+    ] = 60.0,
     gps: Annotated[bool, typer.Option("--gps", help="Robots have GPS, good to 3 m.")] = False,
     seed: Annotated[int, typer.Option(min=0, help="The same seed gives the same run.")] = 0,
     world_seed: Annotated[int, typer.Option(min=0, help="Of a named world.")] = 7,
@@ -142,7 +149,7 @@ def run(
     """
     targets = list(outs or [])
     minutes = _minutes(world) if time_limit is None else time_limit
-    _check(targets, world, minutes, speed)
+    _check(targets, world, minutes, speed, reach, gui)
     from dataclasses import replace
 
     from symboslam.sim_bridge.bridge.detections import get_detector
@@ -164,14 +171,16 @@ def run(
     from symboslam.sim_bridge.mission.team import MissionSettings, assemble
 
     settings = MissionSettings(
-        robots, str(robot), str(detector), 60 * minutes, seed, window=gui,
+        robots, str(robot), str(detector), 60 * minutes, seed, reach=reach, window=gui,
         bridge=replace(BridgeSettings(), speed=speed, gps=GpsSpec() if gps else None),
     )  # fmt: skip
     config = {"world": world, "world_seed": world_seed, "search": search, "slam": str(slam),
               "segmentation": str(segmentation)}  # fmt: skip
     recorder = Recorder(record, config) if record is not None else None
+    written: list[Path] = []
     with progress_bar() as progress:
         knowledge = load_knowledge(None, progress)
+        _check_zones(made, knowledge)
         team = assemble(made, settings, knowledge)
         try:
             ended = fly(
@@ -189,7 +198,8 @@ def run(
                     folder=record,
                 )  # fmt: skip
                 metrics = result.metrics
-                _write(result, [*targets, *([record / "map.geojson"] if record else [])])
+                if _write(result, [*targets, *([record / "map.geojson"] if record else [])]):
+                    written = targets
         finally:
             team.close()
             if recorder is not None:
@@ -200,7 +210,7 @@ def run(
     if as_json:
         sys.stdout.write(json.dumps(metrics, indent=2) + "\n")
     else:
-        wrote = [f"wrote {target.resolve()}" for target in targets]
+        wrote = [f"wrote {target.resolve()}" for target in written]
         wrote += [f"recorded in {record.resolve()}"] if record else []
         show("\n".join([*_sentences(metrics), *metrics["notes"], *wrote]))
     if ended.ended == "interrupted":
@@ -215,26 +225,45 @@ def _minutes(world: str) -> float:
     return OTHERS if area is None else area.minutes
 
 
-def _check(targets: Sequence[Path], world: str, time_limit: float, speed: float) -> None:
+def _check(
+    targets: Sequence[Path], world: str, time_limit: float, speed: float, reach: float, gui: bool
+) -> None:
     from symboslam.engine.writers import check_targets, format_of
 
     if not 0 < time_limit < 1e5:
         raise InputError(f"--time-limit {time_limit:g}: give minutes above 0")
     if not 0 < speed <= 50:
         raise InputError(f"--speed {speed:g}: give metres a second above 0, at most 50")
+    if not 1 <= reach <= 1000:
+        raise InputError(f"--range {reach:g}: give metres from 1 to 1000")
+    if gui and sys.platform == "linux" and not os.environ.get("DISPLAY"):
+        raise InputError("--gui: there is no display (DISPLAY is not set)")
     source = Path(world)
     check_targets(targets, [source] if source.is_file() else [], format_of)
 
 
-def _write(result: Result, targets: Sequence[Path]) -> None:
+def _check_zones(world: World, knowledge: Knowledge) -> None:
+    """Refuse environments that no map can have, before hours are flown."""
+    known = {environment.name for environment in knowledge.environments}
+    for zone in world.zones:
+        if zone.environment not in known:
+            raise InputError(
+                f"{world.name}: a zone has the environment {zone.environment!r}, which the "
+                f"ontology does not: {', '.join(sorted(known))}"
+            )
+
+
+def _write(result: Result, targets: Sequence[Path]) -> bool:
+    """Write the map, if there is one; whether there is."""
     from symboslam.engine.writers import write_map
 
     if result.environment_map is None:
         if targets:
             result.metrics["notes"].append("nothing was seen: there is no map to write")
-        return
+        return False
     for target in targets:
         write_map(result.environment_map, target)
+    return True
 
 
 def _sentences(m: dict[str, Any]) -> list[str]:
