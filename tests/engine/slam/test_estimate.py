@@ -194,16 +194,16 @@ def test_things_that_move_are_dynamic_landmarks_and_anchor_nothing() -> None:
         reach[moves] = rng.uniform(1, 60, moves.sum())
         return replace(log, seen=replace(log.seen, range=reach))
 
-    dynamic = np.arange(SMALL.classes) == 0
+    dynamic = np.arange(SMALL.classes) == 0  # their ranges tell how far the sensor reaches
     shifted = estimate(replace(changed(mission, moved), dynamic=dynamic))
     still = estimate(replace(mission, dynamic=dynamic))
     assert shifted.landmarks.dynamic.any()
     assert not shifted.landmarks.dynamic.all()
     for name, path in still.trajectories.items():
-        assert shifted.trajectories[name].pose == pytest.approx(path.pose, abs=1e-6)
+        assert shifted.trajectories[name].pose == pytest.approx(path.pose, abs=1e-5)
     static = ~shifted.landmarks.dynamic
     assert shifted.landmarks.xy[static] == pytest.approx(
-        still.landmarks.xy[~still.landmarks.dynamic], abs=1e-6
+        still.landmarks.xy[~still.landmarks.dynamic], abs=1e-5
     )
 
 
