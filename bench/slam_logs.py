@@ -38,7 +38,7 @@ def mrclam(tiny: bool = False) -> str:
     from symboslam.engine.slam.readers.mrclam import read
 
     folder = (ROOT / BENCHMARK).resolve().parent / "data" / "mrclam6"
-    head = "### MRCLAM set 6 (five robots, 15 landmarks, half an hour)"
+    head = "### MRCLAM set 6 (five robots, 15 landmarks, 15 minutes)"
     if tiny or not folder.is_dir():
         return f"{head}\n\nSkipped: " + ("toy sizes." if tiny else "the data are not here.")
     rows: list[list[object]] = []

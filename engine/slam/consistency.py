@@ -16,6 +16,10 @@ from symboslam.engine.slam.unseen import unseen
 
 MISFITS = 0.15
 """Share of a robot's sightings beyond four standard deviations, from which it is doubted."""
+STRAY = 0.2
+"""Share of a robot's positions from outside that do not fit, from which it is doubted."""
+OFF = 5.0
+"""Standard deviations beyond which a position from outside does not fit."""
 UNMET = 0.2
 """Share of robots seen that are where no robot is, from which a robot is doubted."""
 LOST = 0.15
@@ -93,6 +97,13 @@ def doubts(graph: JointGraph, edges: list[EdgeMap]) -> list[list[Doubt]]:
                 f"and never seen, one of its own by others or of theirs by it"
             )
             found.append(Doubt(said, missed / expected / MISSED))
+        stray, fixes = strays(member), len(member.graph.fixes)
+        if fixes >= 5 and stray > STRAY * fixes:
+            said = (
+                f"{name}: {stray} of {fixes} positions from outside lie more than {OFF:g} standard "
+                "deviations from where the map has it"
+            )
+            found.append(Doubt(said, stray / fixes / STRAY))
         robots = len(seen_robots(member))
         if len(graph.members) > 1 and robots >= 20 and met[number] < (1 - UNMET) * robots:
             said = (
@@ -100,6 +111,14 @@ def doubts(graph: JointGraph, edges: list[EdgeMap]) -> list[list[Doubt]]:
             )
             found.append(Doubt(said, (1 - met[number] / robots) / UNMET))
     return every
+
+
+def strays(member: Member) -> int:
+    """How many positions from outside do not fit a robot's path."""
+    return sum(
+        float(np.hypot(*(member.poses[fix.pose, :2] - (fix.x, fix.y)))) > OFF * fix.sigma
+        for fix in member.graph.fixes
+    )
 
 
 def vagueness(graph: JointGraph, reach: float) -> list[str]:

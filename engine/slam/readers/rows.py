@@ -10,6 +10,8 @@ from symboslam.errors import InputError
 
 APART = 0.1
 """Metres; nearer places are one."""
+SHARE = 0.1
+"""Of all times, at which a robot in two places is no accident."""
 TWICE = 10
 """So many times in two places at once are no accident."""
 
@@ -48,16 +50,16 @@ def one_a_time(time: Floats, name: str, notes: list[str], xy: Floats | None = No
         xy: (n, 2) metres, where the rows say it was.
 
     Raises:
-        InputError: it was in two places most of the time: two robots have one name.
+        InputError: it was in two places at once too often.
     """
     last = np.append(np.diff(time) > 0, True) if len(time) else np.zeros(0, np.bool_)
     if not last.all():
         if xy is not None:
             twice = int((np.hypot(*np.diff(xy, axis=0).T)[~last[:-1]] > APART).sum())
-            if twice >= TWICE and 2 * twice > last.sum():
+            if twice >= TWICE and twice > SHARE * last.sum():
                 raise InputError(
                     f"{name}: in two places at once at {twice} of {last.sum()} times: two robots "
-                    "under one name? Give each a name of its own"
+                    "under one name, or a clock that was set back? Name each drive for itself"
                 )
         notes.append(
             f"{name}: {count(int((~last).sum()), 'row')} left out that another row of the same "

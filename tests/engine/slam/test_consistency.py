@@ -16,7 +16,7 @@ from symboslam.engine.slam.consistency import (
 )
 from symboslam.engine.slam.joint import JointGraph, Member
 from symboslam.engine.slam.log import ROBOT
-from symboslam.engine.slam.pose_graph import Sighting
+from symboslam.engine.slam.pose_graph import Fix, Sighting
 from symboslam.engine.slam.settings import SlamSettings
 
 STRAIGHT = [(n, 0, 0) for n in range(60)]
@@ -131,3 +131,14 @@ def test_landmarks_in_view_that_were_never_seen_are_doubted(robot: Any) -> None:
     ):
         (sentence,) = [each for each in found if "in view" in each]
         assert sentence.startswith(f"{name}: 69 of 103 times a landmark was in view again")
+
+
+def test_positions_from_outside_that_do_not_fit_are_doubted(robot: Any) -> None:
+    member: Member = robot("r", STRAIGHT, MARKS)
+    member.graph.fixes += [Fix(n, n, 4.9 if n else 5.1, 1.0) for n in range(6)]
+    assert said(member) == [[]]
+    member.graph.fixes[1] = Fix(1, 1, 5.1, 1.0)
+    assert said(member) == [
+        ["r: 2 of 6 positions from outside lie more than 5 standard deviations from where the map "
+         "has it"]
+    ]  # fmt: skip
